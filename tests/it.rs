@@ -113,6 +113,7 @@ mod smooth_scenes;
 #[path = "stability/main.rs"]
 mod stability;
 mod step;
+mod step_features;
 mod step_machines;
 mod step_pairs;
 mod subgroups;

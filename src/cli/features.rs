@@ -1,16 +1,20 @@
 //! `kutzbach features FILE --declared F`: the features of parts that a text declares.
 
 use super::failure::Failure;
+use super::features_step::{StepPart, parts as parts_of_step};
+use super::files::cannot_read;
 use super::geometry::{in_file, read, word, world};
 use super::{DONE, output};
 use clap::Args;
 use kutzbach::number::Number;
 use kutzbach::report::picture::solids::{FlatFace, Mark, MarkedEdge, Part, document};
 use kutzbach::report::text::visible;
-use kutzbach_geometry::features::{Declaration, Extraction, Feature, Sort, read_declarations};
+use kutzbach_geometry::features::{
+    Declaration, Extraction, Feature, FeatureError, Role, Sort, read_declarations,
+};
 use kutzbach_geometry::{Boundary, Entity, Legible, Measured, Reading};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What the data are, for who reads them.
 const SCHEMA: &str = "kutzbach-features-1";
@@ -18,7 +22,7 @@ const SCHEMA: &str = "kutzbach-features-1";
 /// Find features (steps, slots, your own) that a text declares in the boundaries of parts
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Text with the solids and surfaces, as for `kutzbach geometry`; `-` for standard input
+    /// Text with the solids and surfaces, as for `kutzbach geometry` (`-` for standard input), or a STEP file, whose faces may be round
     file: PathBuf,
     /// Declaration of features, such as `mechanisms/features/step.features`; may be repeated
     #[arg(long, value_name = "FILE", required = true)]
@@ -26,13 +30,13 @@ pub struct Arguments {
     /// Look in this solid or surface only; may be repeated
     #[arg(long, value_name = "NAME")]
     part: Vec<String>,
-    /// Take decimals as known to half a unit of their last place; if not given, they are exact
+    /// Take decimals as known to half a unit of their last place; if not given, they are exact. Those of a STEP file are known within its accuracy
     #[arg(long)]
     tolerant: bool,
     /// Write data for a program
     #[arg(long)]
     json: bool,
-    /// Draw the parts with the faces and edges that were found marked, as an SVG
+    /// Draw the parts with the faces and edges that were found marked, as an SVG; not of a STEP file
     #[arg(long, conflicts_with = "json")]
     svg: bool,
     #[command(flatten)]
@@ -44,9 +48,10 @@ pub struct Arguments {
 /// # Errors
 /// Where a text says no entities or declares no feature, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let text = match arguments.tolerant {
-        false => found::<Number>(arguments)?,
-        true => found::<Measured>(arguments)?,
+    let text = match (step(&arguments.file)?, arguments.tolerant) {
+        (Some(bytes), _) => found_in_step(arguments, &bytes)?,
+        (None, false) => found::<Number>(arguments)?,
+        (None, true) => found::<Measured>(arguments)?,
     };
     arguments.destination.put(&text)?;
     Ok(DONE)
@@ -59,25 +64,110 @@ struct InPart {
     extraction: Extraction,
     /// The names of what fills the roles of each feature.
     named: Vec<Vec<String>>,
+    /// How many faces have no known surface or no edges.
+    unknown: usize,
 }
 
-fn found<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
+/// The bytes of a file that is a STEP file by its first word.
+fn step(file: &Path) -> Result<Option<Vec<u8>>, Failure> {
+    if file == Path::new("-") {
+        return Ok(None);
+    }
+    let bytes = std::fs::read(file).map_err(|error| cannot_read(file, &error))?;
+    let begin = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let is_step = begin.trim_ascii_start().starts_with(b"ISO-10303-21");
+    Ok(is_step.then_some(bytes))
+}
+
+fn declarations(arguments: &Arguments) -> Result<Vec<Declaration>, Failure> {
     let mut declarations = Vec::new();
     for file in &arguments.declared {
         let (name, text) = read(file)?;
         declarations.extend(read_declarations(&text).map_err(|error| in_file(&name, error))?);
     }
+    Ok(declarations)
+}
+
+/// The failure of a search in a part.
+fn in_part(declaration: &Declaration, part: &str, error: &FeatureError) -> Failure {
+    Failure::Plain {
+        message: format!("{} in {part}: {error}", declaration.name),
+        help: None,
+    }
+}
+
+/// What was found in all parts, as a text or as data.
+fn written(arguments: &Arguments, all: &[InPart], form: &str) -> Result<String, Failure> {
+    match arguments.json {
+        false => Ok(all.iter().map(text).collect()),
+        true => output::json(&json!({
+            "schema": SCHEMA,
+            "file": arguments.file.display().to_string(),
+            "form": form,
+            "found": all.iter().map(data).collect::<Vec<Value>>(),
+        })),
+    }
+}
+
+fn found_in_step(arguments: &Arguments, bytes: &[u8]) -> Result<String, Failure> {
+    let file = arguments.file.display();
+    if arguments.svg {
+        return Err(Failure::Plain {
+            message: format!(
+                "needed solids with flat faces for a picture, found the STEP file {file}"
+            ),
+            help: Some("without `--svg` what is found is listed".to_owned()),
+        });
+    }
+    let declarations = declarations(arguments)?;
+    let assembly = kutzbach_step::read(bytes).map_err(|error| Failure::Plain {
+        message: format!("{file}, {error}"),
+        help: None,
+    })?;
+    let parts = parts_of_step(&assembly);
+    let names: Vec<String> = parts.iter().map(|part| part.name.clone()).collect();
+    known(&names, &arguments.part)?;
+    let mut all = Vec::new();
+    let wanted =
+        |part: &&StepPart| arguments.part.is_empty() || arguments.part.contains(&part.name);
+    for part in parts.iter().filter(wanted) {
+        for declaration in &declarations {
+            let extraction = declaration
+                .extract(&part.part)
+                .map_err(|error| in_part(declaration, &part.name, &error))?;
+            let names = |feature: &Feature| {
+                let roles = declaration.roles.iter().zip(&feature.roles);
+                let name = |(role, number): (&Role, &usize)| {
+                    let names = match role.sort {
+                        Sort::Edge => &part.edges,
+                        Sort::Face => &part.faces,
+                    };
+                    names.get(*number).cloned().unwrap_or_default()
+                };
+                roles.map(name).collect()
+            };
+            all.push(InPart {
+                part: part.name.clone(),
+                named: extraction.features.iter().map(names).collect(),
+                declaration: declaration.clone(),
+                extraction,
+                unknown: part.unknown,
+            });
+        }
+    }
+    written(arguments, &all, "tolerant")
+}
+
+fn found<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
+    let declarations = declarations(arguments)?;
     let reading: Reading<S> = world(&arguments.file)?;
     let parts = parts(&reading, &arguments.part)?;
     let (mut all, mut pictures) = (Vec::new(), Vec::new());
     for (part, boundary) in &parts {
         for declaration in &declarations {
             let extraction = declaration
-                .extract(boundary)
-                .map_err(|error| Failure::Plain {
-                    message: format!("{} in {part}: {error}", declaration.name),
-                    help: None,
-                })?;
+                .extract(*boundary)
+                .map_err(|error| in_part(declaration, part, &error))?;
             if arguments.svg {
                 pictures.push(picture(declaration, &extraction, part, boundary));
             }
@@ -87,20 +177,29 @@ fn found<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
                 named: extraction.features.iter().map(names).collect(),
                 declaration: declaration.clone(),
                 extraction,
+                unknown: 0,
             });
         }
     }
     if arguments.svg {
         return Ok(document(&pictures));
     }
-    match arguments.json {
-        false => Ok(all.iter().map(text).collect()),
-        true => output::json(&json!({
-            "schema": SCHEMA,
-            "file": arguments.file.display().to_string(),
-            "form": if arguments.tolerant { "tolerant" } else { "exact" },
-            "found": all.iter().map(data).collect::<Vec<Value>>(),
-        })),
+    let form = if arguments.tolerant {
+        "tolerant"
+    } else {
+        "exact"
+    };
+    written(arguments, &all, form)
+}
+
+/// That all parts that are asked for are there.
+fn known(known: &[String], wanted: &[String]) -> Result<(), Failure> {
+    match wanted.iter().find(|name| !known.contains(name)) {
+        Some(missing) => Err(Failure::Plain {
+            message: format!("there is no solid or surface `{missing}`"),
+            help: Some(format!("the file has {}", known.join(", "))),
+        }),
+        None => Ok(()),
     }
 }
 
@@ -109,20 +208,15 @@ fn parts<'a, S: Legible>(
     reading: &'a Reading<S>,
     wanted: &[String],
 ) -> Result<Vec<(&'a str, &'a Boundary<S>)>, Failure> {
-    let known = &reading.boundaries;
-    if let Some(missing) = wanted.iter().find(|name| !known.contains(name)) {
-        return Err(Failure::Plain {
-            message: format!("there is no solid or surface `{missing}`"),
-            help: Some(format!("the file has {}", known.join(", "))),
-        });
-    }
-    if known.is_empty() {
+    let boundaries = &reading.boundaries;
+    known(boundaries, wanted)?;
+    if boundaries.is_empty() {
         return Err(Failure::Plain {
             message: "the file has no solid and no surface".to_owned(),
             help: Some("write one from `solid NAME` to `end`".to_owned()),
         });
     }
-    let asked = known
+    let asked = boundaries
         .iter()
         .filter(|name| wanted.is_empty() || wanted.contains(name));
     let found = asked.filter_map(|name| {
@@ -144,7 +238,7 @@ fn named<S>(
 ) -> Vec<String> {
     let faces = reading.faces.get(part).map_or(&[][..], Vec::as_slice);
     let roles = declaration.roles.iter().zip(&feature.roles);
-    let name = |(role, number): (&kutzbach_geometry::features::Role, &usize)| match role.sort {
+    let name = |(role, number): (&Role, &usize)| match role.sort {
         Sort::Edge => format!("{part}.edge{number}"),
         Sort::Face => faces
             .get(*number)
@@ -222,6 +316,7 @@ fn text(found: &InPart) -> String {
         declaration,
         extraction,
         named,
+        unknown,
     } = found;
     let mut text = format!("{}\n", heading(declaration, extraction, part));
     let roles: Vec<String> = declaration
@@ -270,6 +365,11 @@ fn text(found: &InPart) -> String {
             "  neither convex nor concave, since not between two faces: {edges} edge(s)\n"
         ));
     }
+    if *unknown > 0 {
+        text.push_str(&format!(
+            "  of no type, since on no plane, cylinder, cone or sphere, or without edges: {unknown} face(s)\n"
+        ));
+    }
     text
 }
 
@@ -296,5 +396,6 @@ fn data(found: &InPart) -> Value {
         "features": features.collect::<Vec<Value>>(),
         "plan": plan.collect::<Vec<Value>>(),
         "edges_without_bend": found.extraction.edges_without_bend,
+        "faces_without_type": found.unknown,
     })
 }

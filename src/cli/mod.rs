@@ -12,6 +12,7 @@ mod excerpt;
 mod explain;
 mod failure;
 mod features;
+mod features_step;
 mod files;
 mod gallery;
 mod geometry;

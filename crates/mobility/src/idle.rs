@@ -128,7 +128,7 @@ fn moving_alone(
                 let singly = singles.iter().map(|single| single.weights.len()).sum();
                 let all = singles.into_iter().chain([&alone]);
                 let rank = OneSided::of(Combinations::together(all))
-                    .and_then(|all| there.limits.rank(&all.values));
+                    .and_then(|all| there.rank(&all.values));
                 rank.map_or(0, |rank| rank.saturating_sub(singly))
             };
             *freedom = more.min(*freedom);
@@ -308,7 +308,7 @@ pub(super) fn idle_spaces(
             let mut units = Vec::with_capacity(of_blocks.len());
             for idle in of_blocks {
                 let found = OneSided::of(idle)?;
-                let rank = there.limits.rank(&found.values)?;
+                let rank = there.rank(&found.values)?;
                 let vectors = found.vectors.into_iter().zip(found.values).take(rank);
                 let unit =
                     vectors.map(|(vector, value)| vector.iter().map(|x| x / value).collect());
@@ -563,9 +563,9 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
             moves
         })
         .collect();
-    let limits = match cluster.spins {
-        true => &Limits::new(COMPUTED_TO, tangents.length()),
-        false => &there.limits,
+    let rank_of = |values: &[f64]| match cluster.spins {
+        true => Limits::new(COMPUTED_TO, tangents.length()).rank(values),
+        false => there.rank(values),
     };
     let outside = OneSided::of(others_move)?;
     let moving = match nearly {
@@ -579,7 +579,7 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
             let least = outside.values.iter().copied().fold(f64::INFINITY, f64::min);
             let spin = usize::from(cluster.spins && least <= NEARLY_AT_REST);
             let most = outside.values.len() - spin;
-            let rank = limits.rank(&outside.values);
+            let rank = rank_of(&outside.values);
             rank.or((spin > 0).then_some(most))?.min(most)
         }
     };
@@ -592,7 +592,7 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
         .iter()
         .map(|sum| there.along(cluster.link, &vectors, sum).to_vec());
     let own_motion = OneSided::of(own_motion.collect())?;
-    let freedom = limits.rank(&own_motion.values)?;
+    let freedom = rank_of(&own_motion.values)?;
     let weights = own_motion.combinations[..freedom]
         .iter()
         .map(|combination| combined(&alone, combination))

@@ -104,6 +104,14 @@ impl LinkTwists {
         screws.all(Twist::is_finite).then_some(found)
     }
 
+    /// How many singular values of what is made of unit tangents are not zero; `None` where one is doubtful.
+    ///
+    /// What the digits leave open is asked of the numbers as they are: where they close, their motion is one that they stand for.
+    pub fn rank(&self, values: &[f64]) -> Option<usize> {
+        let asked = [&self.limits, &self.as_written];
+        asked.into_iter().find_map(|limits| limits.rank(values))
+    }
+
     fn walk(
         &mut self,
         mechanism: &Mechanism,

@@ -1,5 +1,6 @@
 //! From products to parts at their places.
 
+use crate::digits::uncertainty;
 use crate::error::{Problem, StepError};
 use crate::faces::{Found, of_representation};
 use crate::kinematics::{Occurred, Shown, has_pairs, mechanisms};
@@ -22,6 +23,9 @@ const DEEPEST: usize = 256;
 /// The most occurrences that are visited, those of assemblies among them.
 const MOST_OCCURRENCES: usize = 200_000;
 
+/// Three components that are off by as much each are off by this many times as much together.
+const WORST: f64 = 1.732_050_807_568_877_2;
+
 /// What a product looks like, read once.
 #[derive(Clone)]
 struct Shape {
@@ -41,6 +45,7 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         assembly: Assembly {
             length_unit: 0.0,
             accuracy: 0.0,
+            tilt: WORST * uncertainty(file, "DIRECTION"),
             schemas: file.schemas().to_vec(),
             parts: Vec::new(),
             pairs: Vec::new(),
@@ -52,6 +57,7 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         shapes: BTreeMap::new(),
         names: BTreeSet::new(),
         counts: BTreeMap::new(),
+        digits: WORST * uncertainty(file, "CARTESIAN_POINT"),
         has_pairs: has_pairs(file),
         occurred: Vec::new(),
         shown: Shown::new(),
@@ -69,11 +75,26 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         };
         return Err(StepError::at(1, None, problem));
     }
+    builder.assembly.accuracy += levered(&builder.assembly);
     let said = mechanisms(file, &builder.occurred, &builder.shown)?;
     builder.assembly.pairs = said.pairs;
     builder.assembly.base = said.base;
     builder.assembly.notes.extend(said.notes);
     Ok(builder.assembly)
+}
+
+/// How far (m) the directions of places may move the points of parts: twice, by a place and by the frame of the part that it refers to.
+fn levered(assembly: &Assembly) -> f64 {
+    if assembly.tilt == 0.0 {
+        return 0.0;
+    }
+    let mut seen = BTreeSet::new();
+    let parts = assembly.parts.iter();
+    let faces = parts
+        .filter(|part| seen.insert(Arc::as_ptr(&part.faces)))
+        .flat_map(|part| part.faces.iter());
+    let points = faces.flat_map(|face| face.outline.iter().flatten());
+    2.0 * assembly.tilt * points.map(|point| point.norm()).fold(0.0, f64::max)
 }
 
 struct Builder<'p, 'e> {
@@ -84,6 +105,8 @@ struct Builder<'p, 'e> {
     names: BTreeSet<String>,
     /// How many parts of each name there are.
     counts: BTreeMap<String, usize>,
+    /// How far points may be off by their digits, in the unit of the file.
+    digits: f64,
     /// Whether the file has kinematic pairs, so that occurrences are kept.
     has_pairs: bool,
     /// Where products occur.
@@ -249,7 +272,8 @@ impl<'e> Builder<'_, 'e> {
             if found.faces.len() > before {
                 let own = Units::of_representation(*record)?;
                 let (unit, accuracy) = units.unwrap_or((own.length, 0.0));
-                units = Some((unit, accuracy.max(own.accuracy)));
+                let digits = self.digits * own.length;
+                units = Some((unit, accuracy.max(own.accuracy).max(digits)));
             }
         }
         let mut notes = found.notes();

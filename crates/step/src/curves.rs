@@ -3,6 +3,7 @@
 use crate::error::{Problem, StepError};
 use crate::part21::{Instance, Record};
 use crate::placement::{direction, placement, point};
+use crate::shape::EdgeCurve;
 use crate::spline::SplineCurve;
 use crate::units::Units;
 use nalgebra::Vector3;
@@ -206,22 +207,56 @@ pub(crate) fn vertex(instance: Instance<'_>, units: &Units) -> Result<Vector3<f6
     point(record.entity_at(1)?, units)
 }
 
-/// The points of an EDGE_CURVE from its first vertex to its second, and the keyword of a curve that was not followed.
+/// An edge from its first vertex to its second.
+pub(crate) struct Followed {
+    /// Its points.
+    pub points: Vec<Vector3<f64>>,
+    /// What it runs along.
+    pub curve: EdgeCurve,
+    /// The keyword of a curve that was not followed.
+    pub unknown: Option<String>,
+}
+
+/// Half axes of an ellipse that differ by less than this share are those of a circle.
+const ROUND: f64 = 1e-9;
+
+impl Curve {
+    /// What kind of curve it is for who asks about edges.
+    fn kind(&self) -> EdgeCurve {
+        match self {
+            Self::Line(..) => EdgeCurve::Line,
+            Self::Ellipse(centre, x, y) if (x.norm() - y.norm()).abs() <= ROUND * x.norm() => {
+                EdgeCurve::Circle {
+                    centre: *centre,
+                    axis: x.cross(y).normalize(),
+                    radius: x.norm(),
+                }
+            }
+            _ => EdgeCurve::Other,
+        }
+    }
+}
+
+/// Follows an EDGE_CURVE.
 ///
 /// # Errors
 /// As for [`vertex`] and [`Curve::read`].
 pub(crate) fn edge(
     record: Record<'_>,
     units: &Units,
-) -> Result<(Vec<Vector3<f64>>, Option<String>), StepError> {
+) -> Result<Followed, StepError> {
     let ends = (
         vertex(record.entity_at(1)?, units)?,
         vertex(record.entity_at(2)?, units)?,
     );
     let curve = Curve::read(record.entity_at(3)?, units)?;
     let points = curve.between(ends, record.truth_at(4)?, units.accuracy);
-    match curve {
-        Curve::Other(keyword) => Ok((points, Some(keyword))),
-        _ => Ok((points, None)),
-    }
+    Ok(Followed {
+        points,
+        curve: curve.kind(),
+        unknown: match curve {
+            Curve::Other(keyword) => Some(keyword),
+            _ => None,
+        },
+    })
 }

@@ -1,11 +1,11 @@
 //! Faces of the solids and shells of a representation.
 
-use crate::curves::{edge, vertex};
+use crate::curves::{Followed, edge, vertex};
 use crate::error::{Problem, StepError};
 use crate::measure::extents;
 use crate::part21::{Instance, Record};
 use crate::placement::point;
-use crate::shape::{Face, Note, NoteKind, Side, Surface};
+use crate::shape::{Face, FaceEdge, Note, NoteKind, Side, Surface};
 use crate::surfaces::surface;
 use crate::units::Units;
 use kutzbach_math::group::Pose;
@@ -183,7 +183,11 @@ fn add_face(
         .or_else(|| face.leaf("FACE_SURFACE"))
         .ok_or_else(|| face.wrong_kind("ADVANCED_FACE or FACE_SURFACE"))?;
     let (surface, agrees) = surface(record.entity_at(2)?, frame.units)?;
-    let outline = outline(record, frame.units, found)?;
+    let mut bounds = bounds(record, frame.units, found)?;
+    if reversed {
+        bounds.turn();
+    }
+    let Bounds { outline, edges } = bounds;
     let outward = record.truth_at(3)? ^ reversed ^ !agrees;
     if let Surface::Other(keyword) = &surface {
         let meaning = "faces on such surfaces make no contact";
@@ -201,6 +205,7 @@ fn add_face(
     let face = Face {
         entity: face.number(),
         halves: Vec::new(),
+        edges,
         surface,
         material,
         outline,
@@ -211,13 +216,25 @@ fn add_face(
     Ok(())
 }
 
-/// The bounds of a face as polygons.
-fn outline(
-    face: Record<'_>,
-    units: &Units,
-    found: &mut Found,
-) -> Result<Vec<Vec<Vector3<f64>>>, StepError> {
-    let mut polygons = Vec::new();
+/// What bounds a face: polygons, and the edges along them.
+#[derive(Default)]
+struct Bounds {
+    outline: Vec<Vec<Vector3<f64>>>,
+    edges: Vec<FaceEdge>,
+}
+
+impl Bounds {
+    /// Lets the edges be passed the other way round.
+    fn turn(&mut self) {
+        for edge in &mut self.edges {
+            edge.along = -edge.along;
+        }
+    }
+}
+
+/// The bounds of a face.
+fn bounds(face: Record<'_>, units: &Units, found: &mut Found) -> Result<Bounds, StepError> {
+    let mut all = Bounds::default();
     for bound in face.entities_at(1)? {
         let record = bound
             .leaf("FACE_OUTER_BOUND")
@@ -225,38 +242,50 @@ fn outline(
             .or_else(|| bound.leaf("FACE_BOUND"))
             .ok_or_else(|| bound.wrong_kind("FACE_BOUND or FACE_OUTER_BOUND"))?;
         let place = record.len().saturating_sub(2);
-        polygons.push(polygon(record.entity_at(place)?, units, found)?);
+        let mut own = Bounds::default();
+        polygon(record.entity_at(place)?, units, found, &mut own)?;
+        if matches!(record.truth_at(place + 1), Ok(false)) {
+            own.turn();
+        }
+        all.outline.extend(own.outline);
+        all.edges.extend(own.edges);
     }
-    Ok(polygons)
+    Ok(all)
 }
 
-/// A loop as a polygon; of one corner only where it is a vertex.
+/// Adds a loop as a polygon; of one corner only where it is a vertex.
 fn polygon(
     bound: Instance<'_>,
     units: &Units,
     found: &mut Found,
-) -> Result<Vec<Vector3<f64>>, StepError> {
-    if let Some(single) = bound.leaf("VERTEX_LOOP") {
-        return Ok(vec![vertex(single.entity_at(1)?, units)?]);
-    }
-    if let Some(corners) = bound.leaf("POLY_LOOP") {
+    own: &mut Bounds,
+) -> Result<(), StepError> {
+    let points = if let Some(single) = bound.leaf("VERTEX_LOOP") {
+        vec![vertex(single.entity_at(1)?, units)?]
+    } else if let Some(corners) = bound.leaf("POLY_LOOP") {
         let corners = corners.entities_at(corners.len().saturating_sub(1))?;
-        return corners.into_iter().map(|p| point(p, units)).collect();
-    }
-    let edges = bound.expect("EDGE_LOOP", "EDGE_LOOP, VERTEX_LOOP or POLY_LOOP")?;
-    let mut points = Vec::new();
-    for oriented in edges.entities_at(edges.len().saturating_sub(1))? {
-        points.extend(oriented_edge(oriented, units, found)?);
-    }
-    Ok(points)
+        let points = corners.into_iter().map(|p| point(p, units));
+        points.collect::<Result<Vec<_>, _>>()?
+    } else {
+        let edges = bound.expect("EDGE_LOOP", "EDGE_LOOP, VERTEX_LOOP or POLY_LOOP")?;
+        let mut points = Vec::new();
+        for oriented in edges.entities_at(edges.len().saturating_sub(1))? {
+            let (along, edge) = oriented_edge(oriented, units, found)?;
+            points.extend(along);
+            own.edges.push(edge);
+        }
+        points
+    };
+    own.outline.push(points);
+    Ok(())
 }
 
-/// The points of an ORIENTED_EDGE without the last, which is the first of the next.
+/// The points of an ORIENTED_EDGE without the last, which is the first of the next, and the edge in its direction.
 fn oriented_edge(
     oriented: Instance<'_>,
     units: &Units,
     found: &mut Found,
-) -> Result<Vec<Vector3<f64>>, StepError> {
+) -> Result<(Vec<Vector3<f64>>, FaceEdge), StepError> {
     let (mut element, mut forward) = (oriented, true);
     for _ in 0..LONGEST {
         let Some(record) = element.leaf("ORIENTED_EDGE") else {
@@ -269,7 +298,11 @@ fn oriented_edge(
         return Err(element.error(Problem::Cycle { what: "edges" }));
     }
     let record = element.expect("EDGE_CURVE", "EDGE_CURVE")?;
-    let (mut points, unknown) = edge(record, units)?;
+    let Followed {
+        mut points,
+        curve,
+        unknown,
+    } = edge(record, units)?;
     if let Some(keyword) = unknown {
         let meaning = "edges on such curves are taken as straight";
         found.skip(element, keyword, meaning);
@@ -277,6 +310,27 @@ fn oriented_edge(
     if !forward {
         points.reverse();
     }
+    let (at, along) = middle(&points);
     points.pop();
-    Ok(points)
+    let edge = FaceEdge {
+        entity: element.number(),
+        curve,
+        at,
+        along,
+    };
+    Ok((points, edge))
+}
+
+/// A point in the middle of a way, and the unit direction of the way there; zero where it has none.
+fn middle(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
+    let place = points.len() / 2;
+    let get = |place: usize| points.get(place).copied().unwrap_or_else(Vector3::zeros);
+    let (before, after) = (place.saturating_sub(1), (place + 1).min(points.len().saturating_sub(1)));
+    let along = (get(after) - get(before)).try_normalize(f64::MIN_POSITIVE);
+    // Of two points neither is in the middle.
+    let at = match points.len() {
+        2 => (get(0) + get(1)) / 2.0,
+        _ => get(place),
+    };
+    (at, along.unwrap_or_else(Vector3::zeros))
 }

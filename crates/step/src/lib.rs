@@ -15,6 +15,7 @@
 mod assemble;
 pub mod contacts;
 mod curves;
+mod digits;
 mod error;
 mod faces;
 mod kinematics;
@@ -36,7 +37,7 @@ pub use contacts::{
     Contact, ContactKind, ContactOptions, Joint, JointError, PairOfParts, contacts, joint_of,
 };
 pub use error::{Problem, StepError};
-pub use shape::{Assembly, Face, KinematicPair, Note, NoteKind, PairMotion, Part, Side, Surface};
+pub use shape::{Assembly, EdgeCurve, Face, FaceEdge, KinematicPair, Note, NoteKind, PairMotion, Part, Side, Surface};
 
 /// Reads a STEP file.
 ///

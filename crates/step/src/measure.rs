@@ -1,6 +1,6 @@
 //! How far a face goes along and about its axis, and what a surface is in another frame.
 
-use crate::shape::{Face, Surface};
+use crate::shape::{EdgeCurve, Face, FaceEdge, Surface};
 use kutzbach_math::group::Pose;
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
@@ -56,6 +56,30 @@ impl Surface {
     }
 }
 
+impl FaceEdge {
+    /// This edge where `pose` moves it.
+    fn moved(&self, pose: &Pose) -> Self {
+        let curve = match self.curve {
+            EdgeCurve::Circle {
+                centre,
+                axis,
+                radius,
+            } => EdgeCurve::Circle {
+                centre: pose.transform_point(&centre),
+                axis: pose.transform_direction(&axis),
+                radius,
+            },
+            other => other,
+        };
+        Self {
+            curve,
+            at: pose.transform_point(&self.at),
+            along: pose.transform_direction(&self.along),
+            ..*self
+        }
+    }
+}
+
 impl Face {
     /// This face where `pose` moves it.
     pub fn moved(&self, pose: &Pose) -> Self {
@@ -67,6 +91,7 @@ impl Face {
             surface: self.surface.moved(pose),
             outline: self.outline.iter().map(moved).collect(),
             halves: self.halves.clone(),
+            edges: self.edges.iter().map(|edge| edge.moved(pose)).collect(),
             ..*self
         }
     }

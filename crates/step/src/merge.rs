@@ -136,5 +136,6 @@ fn join(face: &mut Face, piece: Face) {
     face.turned = (face.turned + piece.turned).min(TAU);
     face.halves.push(piece.entity);
     face.halves.extend(piece.halves);
+    face.edges.extend(piece.edges);
     face.outline.extend(piece.outline);
 }

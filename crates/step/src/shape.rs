@@ -9,9 +9,11 @@ use std::sync::Arc;
 pub struct Assembly {
     /// Metres in one unit of length of the file: 0.001 for millimetres. Of the first part, where parts differ.
     pub length_unit: f64,
-    /// How far points of the file may be from where they should be (m), as its contexts state; the largest of all. Zero where
-    /// none is stated.
+    /// How far points of parts may be from where they should be in the assembly (m): as its contexts state, the largest of all,
+    /// or more where the digits of its coordinates and directions leave more open. Zero where none is stated and the digits are those of doubles.
     pub accuracy: f64,
+    /// How far directions may be from where they should be (rad), by the digits with which they are printed. Zero where these are those of doubles.
+    pub tilt: f64,
     /// The schemas that the header names.
     pub schemas: Vec<String>,
     /// The parts, in the order in which the assembly names them.
@@ -50,6 +52,8 @@ pub struct Face {
     pub surface: Surface,
     /// Where the material is.
     pub material: Side,
+    /// The edges that bound it, as it passes them; none where its bounds are polygons or vertices. Those between its pieces are among them twice.
+    pub edges: Vec<FaceEdge>,
     /// Its bounds as closed polygons (without a repeated corner), curved edges in steps of 15 degrees at most. Which of them is
     /// the outer one is not said: what is inside an odd number of them belongs to the face.
     pub outline: Vec<Vec<Vector3<f64>>>,
@@ -57,6 +61,38 @@ pub struct Face {
     pub extent: (f64, f64),
     /// For cylinders and cones, the angle about the axis that it covers (rad), 2π where it goes around. Zero otherwise.
     pub turned: f64,
+}
+
+/// An edge as a face passes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceEdge {
+    /// The number of its entity, by which faces share it.
+    pub entity: u64,
+    /// Its curve.
+    pub curve: EdgeCurve,
+    /// A point of it (m), away from its ends.
+    pub at: Vector3<f64>,
+    /// The unit direction in which the face passes it there: seen from outside of the material, the face is to the left. Zero where the edge has no
+    /// length.
+    pub along: Vector3<f64>,
+}
+
+/// The curve of an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EdgeCurve {
+    /// A straight line.
+    Line,
+    /// A circle, or an arc of one.
+    Circle {
+        /// Its centre (m).
+        centre: Vector3<f64>,
+        /// The unit direction of its axis.
+        axis: Vector3<f64>,
+        /// Its radius (m).
+        radius: f64,
+    },
+    /// Another curve.
+    Other,
 }
 
 /// The side of a face on which the material is.

@@ -4,7 +4,7 @@ use super::frame::in_frame_of_most;
 use super::gears::{Joined, couple, shortest};
 use super::geometry::{Geometry, Taken};
 use super::pairs::Judged;
-use super::standing::{Grid, Position, Standing, standing};
+use super::standing::{Agreement, Grid, Position, Standing, standing};
 use crate::names::unused;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{
@@ -43,8 +43,8 @@ pub(super) struct Built {
 
 /// Makes the mechanism of an assembly whose pairs are judged.
 ///
-/// Each link's frame is parallel to the assembly's or the ground part's, with its origin where the joint is that places the link. Parts that no joint leads
-/// to float.
+/// Each link's frame is parallel to the assembly's, the ground part's or that of most joints ([`in_frame_of_most`]), with its origin where the joint
+/// is that places the link. Parts that no joint leads to float.
 ///
 /// # Errors
 /// What the builder of mechanisms finds wrong.
@@ -53,7 +53,7 @@ pub(super) fn build(
     assembly: &Assembly,
     ground: usize,
     pairs: &[Judged],
-    accuracy: f64,
+    within: Agreement,
     may_be_exact: bool,
 ) -> Result<Built, MechanismError> {
     let taken: Vec<(&Judged, Taken)> = pairs
@@ -65,10 +65,10 @@ pub(super) fn build(
         .map(|(pair, taken)| (taken.geometry, drawn_at(pair)))
         .collect();
     let geometry = match assembly.parts.get(ground) {
-        Some(part) => in_frame_of_most(geometry, &part.pose),
+        Some(part) => in_frame_of_most(geometry, &part.pose, within),
         None => geometry,
     };
-    let (grid, standings) = standing(&geometry, accuracy, may_be_exact);
+    let (grid, standings) = standing(&geometry, within, may_be_exact);
     let edges: Vec<Edge> = taken
         .iter()
         .zip(&geometry)

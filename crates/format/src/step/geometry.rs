@@ -55,6 +55,16 @@ impl Geometry {
         }
     }
 
+    /// A point of its axis or axes, or its centre.
+    pub(super) fn point(&self) -> Option<Vector3<f64>> {
+        match self {
+            Self::Line { point, .. } | Self::Point(point) | Self::Cross { point, .. } => {
+                Some(*point)
+            }
+            Self::Free | Self::Direction(_) => None,
+        }
+    }
+
     /// This geometry where `pose` moves it.
     pub(super) fn moved(&self, pose: &Pose) -> Self {
         match self {

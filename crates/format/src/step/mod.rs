@@ -43,6 +43,7 @@ use super::{ReadOptions, Reading};
 use ground::Why;
 use kutzbach_step::{Assembly, ContactOptions, StepError, contacts};
 use pairs::Judged;
+use standing::Agreement;
 use std::path::Path;
 use told::Told;
 
@@ -80,7 +81,7 @@ pub(super) fn read(
         &found.assembly,
         found.ground,
         &found.pairs,
-        standing::accuracy(found.assembly.accuracy),
+        Agreement::of(found.assembly.accuracy, found.assembly.tilt),
         may_be_exact,
     )
     .map_err(|error| {

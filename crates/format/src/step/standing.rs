@@ -8,8 +8,9 @@
 //!
 //! - all frames of joints and links are parallel to one frame ([`in_frame_of_most`](super::frame::in_frame_of_most)), in which every axis is worked out once. A frame is a
 //!   position and nothing else, and a direction is the same three numbers in whatever link it is written;
-//! - directions that agree within [`SAME_DIRECTION`] are one, those of the coordinate axes before all others;
-//! - axes of one direction whose distance is within the accuracy of the file (at least [`FINEST`]) are one line, with one point;
+//! - directions that agree within [`Agreement::angle`] are one, those of the coordinate axes before all others, and what is at right angles
+//!   to a coordinate axis within it has no component along it;
+//! - axes of one direction whose distance is within [`Agreement::length`] are one line, with one point;
 //! - where axes meet within that accuracy, they pass the same point, that of most of them;
 //! - coordinates of points that agree within the accuracy are one number.
 //!
@@ -19,17 +20,22 @@
 //! The decimals say how well the positions are known: seven (0.1 µm), fewer where the file states that it is coarser. Files state finer
 //! accuracies too, but they are those of a kernel's tolerance, and places of parts have passed other programs. Where
 //! *every* coordinate is a whole number of [`DESIGN`] within [`ROUND`], the design is one of round numbers: of computed coordinates one in
-//! 5000 is so near by chance. These numbers are exact then.
+//! 5000 is so near by chance. So it is where they are within the accuracy of the file, and so many that chance would do it once in
+//! [`CHANCE`] files. These numbers are exact then.
 
 use super::geometry::Geometry;
 use kutzbach_math::group::normalised_direction;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Frame};
 use nalgebra::Vector3;
+use std::collections::BTreeSet;
 
 /// Directions that differ by less (rad) are the same: what the digits of six-digit directions leave, and a thousandth of what a
 /// designer would call a tilt.
-pub(super) const SAME_DIRECTION: f64 = 1e-6;
+const SAME_DIRECTION: f64 = 1e-6;
+
+/// Directions that differ by more (rad) are never made the same, however few digits a file has: a tenth of the least tilt that is drawn.
+const MOST_TILTED: f64 = 1e-4;
 
 /// Lengths (m) that differ by less are the same: no part is made as exactly.
 pub(super) const FINEST: f64 = 1e-7;
@@ -42,6 +48,9 @@ const DESIGN: i64 = 100_000;
 
 /// How near a coordinate is to a round number (m) if it is one: the digits of doubles after a few products.
 const ROUND: f64 = 1e-9;
+
+/// How often (one in so many files) chance may make all coordinates round.
+const CHANCE: f64 = 1e6;
 
 /// Decimals of directions: half of the last is below what counts as the same.
 const DIRECTION_DECIMALS: usize = 7;
@@ -75,12 +84,7 @@ pub(super) struct Grid {
 impl Grid {
     /// The grid for points known to `accuracy` (m), of which `points` have to be on it.
     fn new(points: &[Vector3<f64>], accuracy: f64, may_be_exact: bool) -> Self {
-        let mut coordinates = points.iter().flat_map(|point| point.iter());
-        let is_round = |x: &f64| {
-            let units = x * DESIGN as f64;
-            (units - units.round()).abs() <= ROUND * DESIGN as f64
-        };
-        if may_be_exact && coordinates.all(is_round) {
+        if may_be_exact && are_round(points, accuracy) {
             return Self {
                 per_metre: DESIGN,
                 decimals: None,
@@ -131,19 +135,55 @@ impl Grid {
     }
 }
 
-/// How far points of a file may be from where they should be (m), where it states `stated`.
-pub(super) fn accuracy(stated: f64) -> f64 {
-    stated.clamp(FINEST, COARSEST)
+/// Whether all coordinates are round numbers of a design.
+pub(super) fn are_round(points: &[Vector3<f64>], accuracy: f64) -> bool {
+    let coordinates = || points.iter().flat_map(|point| point.iter());
+    let off = |x: &f64| {
+        let units = x * DESIGN as f64;
+        (units - units.round()).abs() / DESIGN as f64
+    };
+    let worst = coordinates().map(off).fold(0.0, f64::max);
+    if worst <= ROUND {
+        return true;
+    }
+    // Numbers that agree, or are each other's negatives, are round together: they count once.
+    let different: BTreeSet<u64> = coordinates()
+        .map(|x| (x * DESIGN as f64).round().abs() as u64)
+        .filter(|units| *units > 0)
+        .collect();
+    let chance = 2.0 * accuracy * DESIGN as f64;
+    let count = different.len().min(1000) as i32;
+    worst <= accuracy && chance.powi(count) * CHANCE <= 1.0
 }
 
-/// Stands joints of these geometries, each with a point where it is drawn if its geometry has none, so that what agrees within `accuracy`
-/// (m) is the same. With `may_be_exact` round numbers are exact.
+/// Within what positions and directions of a file are the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Agreement {
+    /// Of points and axes (m).
+    pub length: f64,
+    /// Of directions (rad).
+    pub angle: f64,
+}
+
+impl Agreement {
+    /// For a file whose points may be off by `accuracy` (m) and whose directions by `tilt` (rad), in the frames of parts and in those of places:
+    /// two directions differ by four times as much at most.
+    pub fn of(accuracy: f64, tilt: f64) -> Self {
+        Self {
+            length: accuracy.clamp(FINEST, COARSEST),
+            angle: (4.0 * tilt).clamp(SAME_DIRECTION, MOST_TILTED),
+        }
+    }
+}
+
+/// Stands joints of these geometries, each with a point where it is drawn if its geometry has none, so that what agrees is the same.
+/// With `may_be_exact` round numbers are exact.
 pub(super) fn standing(
     joints: &[(Geometry, Vector3<f64>)],
-    accuracy: f64,
+    within: Agreement,
     may_be_exact: bool,
 ) -> (Grid, Vec<Standing>) {
-    let mut agreed = Agreed::new(accuracy);
+    let mut agreed = Agreed::new(within);
     let places: Vec<([Option<usize>; 2], Place)> = joints
         .iter()
         .map(|(geometry, drawn)| agreed.place(geometry, drawn))
@@ -152,8 +192,8 @@ pub(super) fn standing(
     let mut points: Vec<Vector3<f64>> = agreed.lines.iter().map(|line| line.point).collect();
     let of_lines = points.len();
     points.extend(&agreed.centres);
-    agree_by_coordinates(&mut points, accuracy);
-    let grid = Grid::new(&points, accuracy, may_be_exact);
+    agree_by_coordinates(&mut points, within.length);
+    let grid = Grid::new(&points, within.length, may_be_exact);
     let stand = |(directions, place): &([Option<usize>; 2], Place)| {
         let point = match place {
             Place::Line(line) => points.get(*line).copied(),
@@ -194,16 +234,16 @@ struct Line {
 
 /// Directions, axes and centres, each of those that agree once.
 struct Agreed {
-    accuracy: f64,
+    within: Agreement,
     directions: Vec<Vector3<f64>>,
     lines: Vec<Line>,
     centres: Vec<Vector3<f64>>,
 }
 
 impl Agreed {
-    fn new(accuracy: f64) -> Self {
+    fn new(within: Agreement) -> Self {
         Self {
-            accuracy,
+            within,
             // Before all others, so that what is nearly along one of them is along it.
             directions: vec![Vector3::x(), Vector3::y(), Vector3::z()],
             lines: Vec::new(),
@@ -237,18 +277,18 @@ impl Agreed {
     /// The index of a direction, whichever way it points; `None` of none.
     fn direction(&mut self, direction: &Vector3<f64>) -> Option<usize> {
         let unit = normalised_direction(*direction)?;
-        let same = |known: &Vector3<f64>| known.cross(&unit).norm() <= SAME_DIRECTION;
-        Some(match self.directions.iter().position(same) {
-            Some(index) => index,
-            None => {
-                self.directions.push(unit);
-                self.directions.len() - 1
-            }
-        })
+        let width = self.within.angle;
+        let same = |known: &Vector3<f64>| known.cross(&unit).norm() <= width;
+        if let Some(index) = self.directions.iter().position(same) {
+            return Some(index);
+        }
+        let square = unit.map(|x| if x.abs() <= width { 0.0 } else { x });
+        self.directions.push(square.normalize());
+        Some(self.directions.len() - 1)
     }
 
     fn centre(&mut self, point: &Vector3<f64>) -> usize {
-        let width = self.accuracy;
+        let width = self.within.length;
         let same = |known: &Vector3<f64>| (known - point).norm() <= width;
         match self.centres.iter().position(same) {
             Some(index) => index,
@@ -272,7 +312,7 @@ impl Agreed {
         let same = |line: &Line| {
             let between = point - line.point;
             // Points far apart on one axis are as far beside it as its direction is off.
-            let width = self.accuracy + SAME_DIRECTION * between.norm();
+            let width = self.within.length + self.within.angle * between.norm();
             line.direction == direction && between.cross(&along).norm() <= width
         };
         if let Some(index) = self.lines.iter().position(same) {
@@ -300,7 +340,7 @@ impl Agreed {
                     continue;
                 };
                 let near = |(hub, _): &&mut (Vector3<f64>, Vec<usize>)| {
-                    (*hub - point).norm() <= 2.0 * self.accuracy
+                    (*hub - point).norm() <= 2.0 * self.within.length
                 };
                 match hubs.iter_mut().find(near) {
                     Some((_, through)) => through.extend([first, second]),
@@ -310,7 +350,7 @@ impl Agreed {
         }
         for (place, (centre, through)) in hubs.iter_mut().enumerate() {
             if place < self.centres.len() {
-                let on = |line: &usize| self.distance(*line, centre) <= self.accuracy;
+                let on = |line: &usize| self.distance(*line, centre) <= self.within.length;
                 through.extend((0..count).filter(on));
             }
             through.sort_unstable();
@@ -352,7 +392,7 @@ impl Agreed {
         let between = two.point - one.point;
         let gap = between.dot(&across).abs() / across.norm();
         let along = between.cross(&e).dot(&across) / across.norm_squared();
-        (gap <= self.accuracy).then(|| one.point + d * along)
+        (gap <= self.within.length).then(|| one.point + d * along)
     }
 }
 
@@ -380,7 +420,8 @@ fn agree_by_coordinates(points: &mut [Vector3<f64>], width: f64) {
 
 /// A direction as numbers: whole ones along the coordinate axes, hundredths where all three are, decimals otherwise.
 fn written_direction(direction: &Vector3<f64>) -> Direction {
-    let hundredths = |x: &f64| (x * 100.0 - (x * 100.0).round()).abs() <= 1e-7;
+    // Of directions in general not one in ten thousand has three such components.
+    let hundredths = |x: &f64| (x - (x * 100.0).round() / 100.0).abs() <= SAME_DIRECTION;
     let decimals = match direction.iter().all(hundredths) {
         true => 2,
         false => DIRECTION_DECIMALS,

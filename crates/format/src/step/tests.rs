@@ -4,7 +4,7 @@
 
 use super::geometry::{Geometry, for_kind};
 use super::is_step;
-use super::standing::{FINEST, Standing, accuracy, standing};
+use super::standing::{Agreement, Standing, standing};
 use kutzbach_model::mechanism::JointKind;
 use kutzbach_step::{Contact, ContactKind};
 use nalgebra::Vector3;
@@ -35,7 +35,7 @@ fn axes_that_agree_are_one_and_others_are_not() {
             line([0.02 + 4e-7, 0.01, 0.0], z),
             line([0.02, 0.01, 0.0], [1e-5, 0.0, 1.0]),
         ],
-        FINEST,
+        Agreement::of(0.0, 0.0),
         true,
     );
     assert_eq!(found[0], found[1]);
@@ -48,7 +48,7 @@ fn axes_that_agree_are_one_and_others_are_not() {
 fn round_numbers_are_exact_and_others_state_seven_decimals() {
     let z = [0.0, 0.0, 1.0];
     let place = |x: f64, exact: bool| {
-        let (grid, found) = standing(&[line([x, 0.0, 0.0], z)], FINEST, exact);
+        let (grid, found) = standing(&[line([x, 0.0, 0.0], z)], Agreement::of(0.0, 0.0), exact);
         let frame = grid.frame(&found[0].position, &[0; 3]);
         let [x, y, _] = frame.position;
         assert!(y.is_zero());
@@ -63,10 +63,8 @@ fn round_numbers_are_exact_and_others_state_seven_decimals() {
     );
     let (text, _, exact) = place(-0.012_345_678_9, true);
     assert_eq!((text.as_str(), exact), ("-0.0123457", false));
-    assert_eq!(
-        (accuracy(0.0), accuracy(1e-6), accuracy(1.0)),
-        (1e-7, 1e-6, 1e-5)
-    );
+    let length = |stated: f64| Agreement::of(stated, 0.0).length;
+    assert_eq!((length(0.0), length(1e-6), length(1.0)), (1e-7, 1e-6, 1e-5));
 }
 
 #[test]
@@ -81,7 +79,7 @@ fn axes_that_meet_pass_one_point() {
             line(beside(b, -0.07).into(), b),
             (Geometry::Point(centre), Vector3::zeros()),
         ],
-        FINEST,
+        Agreement::of(0.0, 0.0),
         true,
     );
     assert_eq!(found[0].position, found[1].position);
@@ -98,7 +96,7 @@ fn loops_close_exactly_in_differences() {
     ]
     .map(|point| line(point, z))
     .to_vec();
-    let (grid, found) = standing(&joints, FINEST, true);
+    let (grid, found) = standing(&joints, Agreement::of(0.0, 0.0), true);
     let origin = [0; 3];
     let step = |to: &Standing, from: &[i128; 3]| grid.frame(&to.position, from).position;
     for coordinate in 0..2 {

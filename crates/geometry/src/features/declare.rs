@@ -24,22 +24,47 @@ pub struct Role {
 /// A property of one face or edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Type {
-    /// An edge that is straight: all are.
+    /// An edge that is straight.
     Straight,
-    /// A face that is flat: all are.
+    /// An edge that is a circle or an arc of one.
+    Circular,
+    /// A face that is flat.
     Planar,
-    /// A face without holes.
+    /// A face on a circular cylinder.
+    Cylindrical,
+    /// A face on a circular cone.
+    Conical,
+    /// A face on a sphere.
+    Spherical,
+    /// A face that goes all around its axis.
+    Whole,
+    /// A flat face without holes.
     Simple,
-    /// A face with holes.
+    /// A flat face with holes.
     Pierced,
 }
 
-/// How material bends about an edge.
+impl Type {
+    /// All types, in the order in which they are told.
+    pub(super) const ALL: [Self; 9] = [
+        Self::Straight,
+        Self::Circular,
+        Self::Planar,
+        Self::Cylindrical,
+        Self::Conical,
+        Self::Spherical,
+        Self::Whole,
+        Self::Simple,
+        Self::Pierced,
+    ];
+}
+
+/// How material bends about an edge, or how a round face is curved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bend {
-    /// It fills less than half of a turn.
+    /// It fills less than half of a turn; of a face, it is inside the curvature, as that of a pin.
     Convex,
-    /// It fills more than half of a turn.
+    /// It fills more than half of a turn; of a face, it is outside the curvature, as that around a hole.
     Concave,
 }
 
@@ -56,6 +81,31 @@ pub enum Orientation {
     Facing,
     /// Parallel faces with material between: each is behind the other.
     Away,
+    /// Round faces and circular edges on one axis; of a sphere its centre is on that axis.
+    Coaxial,
+    /// Cylinders, spheres and circles of one radius.
+    EqualRadius,
+    /// The first has the larger radius.
+    Larger,
+}
+
+impl Orientation {
+    /// All of them, in the order in which they are told.
+    pub(super) const ALL: [Self; 8] = [
+        Self::Parallel,
+        Self::Perpendicular,
+        Self::Coplanar,
+        Self::Facing,
+        Self::Away,
+        Self::Coaxial,
+        Self::EqualRadius,
+        Self::Larger,
+    ];
+
+    /// Whether it is one of faces only.
+    pub(super) fn is_of_faces(self) -> bool {
+        matches!(self, Self::Coplanar | Self::Facing | Self::Away)
+    }
 }
 
 /// Something that has to hold for a tuple. Roles are known by their numbers.
@@ -72,10 +122,19 @@ pub enum Condition {
         /// The edge.
         edge: usize,
     },
-    /// An edge is convex or concave.
+    /// An edge or a round face is convex or concave.
     Bend(usize, Bend),
     /// Two faces or edges lie so to each other.
     Oriented(usize, usize, Orientation),
+    /// Two axes or centres are as far from a third axis or centre.
+    Equidistant {
+        /// The first of the two.
+        first: usize,
+        /// The second.
+        second: usize,
+        /// The third.
+        from: usize,
+    },
 }
 
 /// A feature, and how to look for it.
@@ -103,6 +162,11 @@ impl Condition {
                 edge,
             } => vec![first, second, edge],
             Self::Oriented(first, second, _) => vec![first, second],
+            Self::Equidistant {
+                first,
+                second,
+                from,
+            } => vec![first, second, from],
         }
     }
 }
@@ -126,9 +190,25 @@ impl Declaration {
                 second,
                 edge,
             } => format!("{} beside {} at {}", name(first), name(second), name(edge)),
+            Condition::Oriented(first, second, Orientation::Larger) => {
+                format!("{} larger than {}", name(first), name(second))
+            }
+            Condition::Oriented(first, second, Orientation::EqualRadius) => {
+                format!("{} and {} of equal radius", name(first), name(second))
+            }
             Condition::Oriented(first, second, orientation) => {
                 format!("{} and {} {orientation}", name(first), name(second))
             }
+            Condition::Equidistant {
+                first,
+                second,
+                from,
+            } => format!(
+                "{} and {} equidistant from {}",
+                name(first),
+                name(second),
+                name(from)
+            ),
         }
     }
 }
@@ -138,8 +218,8 @@ impl Type {
     #[must_use]
     pub fn sort(self) -> Sort {
         match self {
-            Self::Straight => Sort::Edge,
-            Self::Planar | Self::Simple | Self::Pierced => Sort::Face,
+            Self::Straight | Self::Circular => Sort::Edge,
+            _ => Sort::Face,
         }
     }
 }
@@ -157,7 +237,12 @@ impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Straight => "straight",
+            Self::Circular => "circular",
             Self::Planar => "planar",
+            Self::Cylindrical => "cylindrical",
+            Self::Conical => "conical",
+            Self::Spherical => "spherical",
+            Self::Whole => "whole",
             Self::Simple => "simple",
             Self::Pierced => "pierced",
         })
@@ -181,6 +266,9 @@ impl fmt::Display for Orientation {
             Self::Coplanar => "coplanar",
             Self::Facing => "facing",
             Self::Away => "away",
+            Self::Coaxial => "coaxial",
+            Self::EqualRadius => "equal_radius",
+            Self::Larger => "larger",
         })
     }
 }

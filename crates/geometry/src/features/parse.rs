@@ -5,12 +5,13 @@ use crate::text::{Cursor, TextError, Token, TokenKind, tokens};
 use std::ops::Range;
 
 /// With these words sections begin; no role has one for a name.
-const SECTIONS: [&str; 8] = [
+const SECTIONS: [&str; 9] = [
     "ENTITIES",
     "EDGE",
     "FACE",
     "CONNECTIVITY",
     "ORIENTATION",
+    "POSITION",
     "END",
     "BEGIN",
     "DEFINITION",
@@ -23,6 +24,7 @@ pub(super) enum Criterion {
     Convexity,
     Connectivity,
     Orientation,
+    Position,
 }
 
 /// A step of the author.
@@ -120,8 +122,10 @@ impl<'a> Parser<'a> {
             Self::connectivity
         } else if self.cursor.take_word("ORIENTATION") {
             Self::orientation
+        } else if self.cursor.take_word("POSITION") {
+            Self::position
         } else {
-            let needed = "`ENTITIES`, `EDGE TYPE`, `FACE TYPE`, `CONNECTIVITY`, `ORIENTATION` or `END DEFINITION`";
+            let needed = "`ENTITIES`, `EDGE TYPE`, `FACE TYPE`, `CONNECTIVITY`, `ORIENTATION`, `POSITION` or `END DEFINITION`";
             return Err(self.cursor.needed(needed));
         };
         self.cursor.sign(":", "`:`")?;
@@ -206,24 +210,22 @@ impl<'a> Parser<'a> {
         let names = self.names("a role")?;
         self.cursor.sign(":", "`,` and another role, or `:`")?;
         let word = self.cursor.word("a type")?;
-        let types = [Type::Straight, Type::Planar, Type::Simple, Type::Pierced];
-        let kind = types.into_iter().find(|kind| is_word(word, *kind));
+        let kind = Type::ALL.into_iter().find(|kind| is_word(word, *kind));
         let bend = [Bend::Convex, Bend::Concave];
         let bend = bend.into_iter().find(|bend| is_word(word, *bend));
         for name in names {
             let condition = match (kind, bend) {
                 (Some(kind), _) => Condition::Type(self.role(name, Some(kind.sort()))?, kind),
-                (None, Some(bend)) => Condition::Bend(self.role(name, Some(Sort::Edge))?, bend),
+                (None, Some(bend)) => Condition::Bend(self.role(name, None)?, bend),
                 (None, None) => {
-                    let needed = "STRAIGHT, CONVEX or CONCAVE for an edge; PLANAR, SIMPLE (without holes) or PIERCED for a face";
+                    let needed = "STRAIGHT or CIRCULAR for an edge; PLANAR, SIMPLE (flat without holes), PIERCED, CYLINDRICAL, CONICAL, SPHERICAL or WHOLE (all around its axis) for a face; CONVEX or CONCAVE for both";
                     let span = word.span.clone();
                     return Err(TextError::needed(
                         self.cursor.source(),
                         span,
                         needed,
                         word.shown(),
-                    )
-                    .help("boundaries have straight edges and flat faces"));
+                    ));
                 }
             };
             self.found.conditions.push(condition);
@@ -276,15 +278,10 @@ impl<'a> Parser<'a> {
         let names = self.names("a role")?;
         self.cursor.sign(":", "`,` and another role, or `:`")?;
         let word = self.cursor.word("an orientation")?;
-        let all = [
-            Orientation::Parallel,
-            Orientation::Perpendicular,
-            Orientation::Coplanar,
-            Orientation::Facing,
-            Orientation::Away,
-        ];
-        let Some(orientation) = all.into_iter().find(|one| is_word(word, *one)) else {
-            let needed = "PARALLEL, PERPENDICULAR, COPLANAR, FACING or AWAY";
+        let mut all = Orientation::ALL.into_iter();
+        let Some(orientation) = all.find(|one| is_word(word, *one)) else {
+            let needed =
+                "PARALLEL, PERPENDICULAR, COPLANAR, FACING, AWAY, COAXIAL, EQUAL_RADIUS or LARGER";
             let span = word.span.clone();
             return Err(TextError::needed(
                 self.cursor.source(),
@@ -293,10 +290,7 @@ impl<'a> Parser<'a> {
                 word.shown(),
             ));
         };
-        let of_faces = !matches!(
-            orientation,
-            Orientation::Parallel | Orientation::Perpendicular
-        );
+        let of_faces = orientation.is_of_faces();
         let mut roles = Vec::with_capacity(names.len());
         for name in &names {
             roles.push(self.role(name, of_faces.then_some(Sort::Face))?);
@@ -313,6 +307,37 @@ impl<'a> Parser<'a> {
                 let condition = Condition::Oriented(*first, *second, orientation);
                 self.found.conditions.push(condition);
             }
+        }
+        Ok(())
+    }
+
+    fn position(&mut self) -> Result<(), TextError> {
+        let names = self.names("a role")?;
+        self.cursor.sign(":", "`,` and another role, or `:`")?;
+        self.keyword("EQUIDISTANT")?;
+        self.keyword("FROM")?;
+        let from = self.cursor.word("the role that they are as far from")?;
+        let from_role = self.role(from, None)?;
+        let mut roles = Vec::with_capacity(names.len());
+        for name in names {
+            roles.push(self.role(name, None)?);
+        }
+        let [first, others @ ..] = roles.as_slice() else {
+            return Ok(());
+        };
+        if others.is_empty() {
+            return Err(TextError::at(
+                self.cursor.source(),
+                from.span.clone(),
+                "needed two roles or more for a distance, found one",
+            ));
+        }
+        for second in others {
+            self.found.conditions.push(Condition::Equidistant {
+                first: *first,
+                second: *second,
+                from: from_role,
+            });
         }
         Ok(())
     }
@@ -372,8 +397,14 @@ impl<'a> Parser<'a> {
             return Ok(Criterion::Type);
         }
         if self.cursor.take_word("face") {
+            if self.cursor.take_word("convexity") {
+                return Ok(Criterion::Convexity);
+            }
             self.keyword("type")?;
             return Ok(Criterion::Type);
+        }
+        if self.cursor.take_word("position") {
+            return Ok(Criterion::Position);
         }
         if self.cursor.take_word("derived") {
             self.keyword("connectivity")?;
@@ -385,7 +416,7 @@ impl<'a> Parser<'a> {
         match self.cursor.take_word("orientation") {
             true => Ok(Criterion::Orientation),
             false => Err(self.cursor.needed(
-                "`edge convexity`, `edge type`, `face type`, `connectivity`, `derived connectivity` or `orientation`",
+                "`edge convexity`, `edge type`, `face convexity`, `face type`, `connectivity`, `derived connectivity`, `orientation` or `position`",
             )),
         }
     }
@@ -427,6 +458,7 @@ pub(super) fn concerns(
         Condition::Bend(..) => criterion == Criterion::Convexity,
         Condition::Connected { .. } => criterion == Criterion::Connectivity,
         Condition::Oriented(..) => criterion == Criterion::Orientation,
+        Condition::Equidistant { .. } => criterion == Criterion::Position,
     };
     let own = condition.roles();
     let names_one = own.iter().any(|role| roles.contains(role));

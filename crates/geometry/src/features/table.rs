@@ -1,13 +1,10 @@
 //! Tuples, filled and struck out step by step.
 
-use super::declare::{Bend, Condition, Declaration, Orientation, Sort, Type};
+use super::declare::{Bend, Condition, Declaration, Sort};
+use super::part::Part;
 use super::plan::{Action, PlanStep};
-use crate::boundary::{Boundary, Face};
-use crate::decide::{Answer, zero_vector};
-use crate::entity::Direction;
+use crate::decide::Answer;
 use crate::error::GeometryError;
-use crate::scalar::Scalar;
-use crate::triple::{cross, dot};
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::fmt;
@@ -85,14 +82,14 @@ impl From<GeometryError> for FeatureError {
 }
 
 impl Declaration {
-    /// The features of a boundary.
+    /// The features of a part: of a [`Boundary`](crate::Boundary), or of one with round faces ([`RoundPart`](super::RoundPart)).
     ///
     /// # Errors
     /// Where a step leaves too many tuples.
-    pub fn extract<S: Scalar>(&self, boundary: &Boundary<S>) -> Result<Extraction, FeatureError> {
+    pub fn extract<P: Part>(&self, part: &P) -> Result<Extraction, FeatureError> {
         let mut finder = Finder {
             declaration: self,
-            boundary,
+            part,
             bends: BTreeMap::new(),
             without_bend: BTreeSet::new(),
         };
@@ -156,15 +153,15 @@ struct Tuple {
     holds: Answer,
 }
 
-struct Finder<'a, S> {
+struct Finder<'a, P> {
     declaration: &'a Declaration,
-    boundary: &'a Boundary<S>,
+    part: &'a P,
     /// What is known of edges; none of those without a bend.
     bends: BTreeMap<(usize, bool), Option<Answer>>,
     without_bend: BTreeSet<usize>,
 }
 
-impl<S: Scalar> Finder<'_, S> {
+impl<P: Part> Finder<'_, P> {
     /// The rows with the roles of an action filled in every possible way.
     fn filled(
         &self,
@@ -202,26 +199,24 @@ impl<S: Scalar> Finder<'_, S> {
             return;
         }
         let count = match self.sort(role) {
-            Some(Sort::Face) => self.boundary.faces().len(),
-            Some(Sort::Edge) => self.boundary.edges().len(),
+            Some(Sort::Face) => self.part.face_count(),
+            Some(Sort::Edge) => self.part.edge_count(),
             None => 0,
         };
         next.extend((0..count).filter_map(|number| self.with(row, &[(role, number)])));
     }
 
     fn join(&self, row: &Tuple, [first, second, edge]: [usize; 3], next: &mut Vec<Tuple>) {
-        let of_face = |face: usize| {
-            let edges: BTreeSet<usize> =
-                self.boundary.edges_of_face(face).iter().copied().collect();
-            edges.into_iter().collect::<Vec<usize>>()
-        };
         let edges = match (held(row, edge), held(row, first), held(row, second)) {
             (Some(edge), _, _) => vec![edge],
-            (None, Some(face), _) | (None, None, Some(face)) => of_face(face),
-            (None, None, None) => (0..self.boundary.edges().len()).collect(),
+            (None, Some(face), _) | (None, None, Some(face)) => {
+                let edges: BTreeSet<usize> = self.part.edges_around(face).into_iter().collect();
+                edges.into_iter().collect()
+            }
+            (None, None, None) => (0..self.part.edge_count()).collect(),
         };
         for number in edges {
-            let faces = self.boundary.faces_of_edge(number);
+            let faces = self.part.faces_beside(number);
             for a in &faces {
                 for b in faces.iter().filter(|b| *b != a) {
                     next.extend(self.with(row, &[(first, *a), (second, *b), (edge, number)]));
@@ -273,102 +268,68 @@ impl<S: Scalar> Finder<'_, S> {
     }
 
     fn holds(&mut self, row: &Tuple, condition: Condition) -> Result<Answer, FeatureError> {
-        let sure = |holds: bool| match holds {
-            true => Answer::Yes,
-            false => Answer::No,
-        };
         Ok(match condition {
-            Condition::Type(_, Type::Straight | Type::Planar) => Answer::Yes,
-            Condition::Type(role, kind) => {
-                let face = held(row, role).and_then(|face| self.boundary.faces().get(face));
-                sure(face.is_some_and(|f| (f.loops().len() == 1) == (kind == Type::Simple)))
-            }
+            Condition::Type(role, kind) => match held(row, role) {
+                Some(number) => self.part.has_type(number, kind),
+                None => Answer::No,
+            },
             Condition::Connected {
                 first,
                 second,
                 edge,
             } => match (held(row, first), held(row, second), held(row, edge)) {
                 (Some(a), Some(b), Some(edge)) => {
-                    let faces = self.boundary.faces_of_edge(edge);
-                    sure(a != b && faces.contains(&a) && faces.contains(&b))
+                    let faces = self.part.faces_beside(edge);
+                    match a != b && faces.contains(&a) && faces.contains(&b) {
+                        true => Answer::Yes,
+                        false => Answer::No,
+                    }
                 }
                 _ => Answer::No,
             },
-            Condition::Bend(role, bend) => match held(row, role) {
-                Some(edge) => self.bend(edge, bend),
-                None => Answer::No,
+            Condition::Bend(role, bend) => match (held(row, role), self.sort(role)) {
+                (Some(edge), Some(Sort::Edge)) => self.bend(edge, bend),
+                (Some(face), Some(Sort::Face)) => self.part.is_curved(face, bend),
+                _ => Answer::No,
             },
             Condition::Oriented(first, second, orientation) => {
-                self.oriented(row, [first, second], orientation)?
+                match (self.filler(row, first), self.filler(row, second)) {
+                    (Some(first), Some(second)) => {
+                        self.part.oriented(first, second, orientation)?
+                    }
+                    _ => Answer::No,
+                }
+            }
+            Condition::Equidistant {
+                first,
+                second,
+                from,
+            } => {
+                let [first, second, from] = [first, second, from].map(|r| self.filler(row, r));
+                match (first, second, from) {
+                    (Some(a), Some(b), Some(from)) => self.part.equidistant(a, b, from),
+                    _ => Answer::No,
+                }
             }
         })
+    }
+
+    /// What fills a role, with its sort.
+    fn filler(&self, row: &Tuple, role: usize) -> Option<(Sort, usize)> {
+        Some((self.sort(role)?, held(row, role)?))
     }
 
     /// Whether an edge bends so; an edge that does not bend at all does not.
     fn bend(&mut self, edge: usize, bend: Bend) -> Answer {
-        let wants_convex = bend == Bend::Convex;
-        let boundary = self.boundary;
-        let known = self.bends.entry((edge, wants_convex)).or_insert_with(|| {
-            let answer = match wants_convex {
-                true => boundary.convex(edge),
-                false => boundary.concave(edge),
-            };
-            answer.ok()
-        });
-        match *known {
-            Some(answer) => answer,
-            None => {
-                self.without_bend.insert(edge);
-                Answer::No
-            }
-        }
-    }
-
-    fn oriented(
-        &self,
-        row: &Tuple,
-        [first, second]: [usize; 2],
-        orientation: Orientation,
-    ) -> Result<Answer, FeatureError> {
-        let (Some(a), Some(b)) = (held(row, first), held(row, second)) else {
-            return Ok(Answer::No);
-        };
-        let (first, second) = (self.sort(first), self.sort(second));
-        if (first, second) == (Some(Sort::Face), Some(Sort::Face)) {
-            let faces = self.boundary.faces();
-            return Ok(match (faces.get(a), faces.get(b)) {
-                (Some(a), Some(b)) => faces_oriented(a, b, orientation),
-                _ => Answer::No,
-            });
-        }
-        let (along, across) = (self.direction(a, first)?, self.direction(b, second)?);
-        let (Some(along), Some(across)) = (along, across) else {
-            return Ok(Answer::No);
-        };
-        let one_line = zero_vector(&cross(along.components(), across.components()));
-        let right_angle = Answer::zero(dot(along.components(), across.components()).sign());
-        // Of a face it is the normal that is looked at.
-        let as_lines = first == second;
-        Ok(match (orientation, as_lines) {
-            (Orientation::Parallel, true) | (Orientation::Perpendicular, false) => one_line,
-            (Orientation::Perpendicular, true) | (Orientation::Parallel, false) => right_angle,
-            _ => Answer::No,
-        })
-    }
-
-    /// The direction of an edge or the normal of a face.
-    fn direction(
-        &self,
-        number: usize,
-        sort: Option<Sort>,
-    ) -> Result<Option<Direction<S>>, FeatureError> {
-        Ok(match sort {
-            Some(Sort::Edge) => Some(self.boundary.segment(number)?.direction().clone()),
-            Some(Sort::Face) => {
-                let face = self.boundary.faces().get(number);
-                face.map(|face| face.plane().normal().clone())
-            }
-            None => None,
+        let part = self.part;
+        let key = (edge, bend == Bend::Convex);
+        let known = *self
+            .bends
+            .entry(key)
+            .or_insert_with(|| part.bends(edge, bend));
+        known.unwrap_or_else(|| {
+            self.without_bend.insert(edge);
+            Answer::No
         })
     }
 }
@@ -376,29 +337,4 @@ impl<S: Scalar> Finder<'_, S> {
 /// What fills a role.
 fn held(row: &Tuple, role: usize) -> Option<usize> {
     row.roles.get(role).copied().flatten()
-}
-
-fn faces_oriented<S: Scalar>(a: &Face<S>, b: &Face<S>, orientation: Orientation) -> Answer {
-    let (m, n) = (
-        a.plane().normal().components(),
-        b.plane().normal().components(),
-    );
-    let cosine = dot(m, n);
-    if orientation == Orientation::Perpendicular {
-        return Answer::zero(cosine.sign());
-    }
-    let parallel = zero_vector(&cross(m, n));
-    if parallel.is_no() || orientation == Orientation::Parallel {
-        return parallel;
-    }
-    let height = a.plane().height(&b.plane().point().0);
-    let opposed = parallel.and(Answer::positive(cosine.negated().sign()));
-    match orientation {
-        Orientation::Coplanar => parallel
-            .and(Answer::positive(cosine.sign()))
-            .and(Answer::zero(height.sign())),
-        Orientation::Facing => opposed.and(Answer::positive(height.sign())),
-        Orientation::Away => opposed.and(Answer::positive(height.negated().sign())),
-        Orientation::Parallel | Orientation::Perpendicular => parallel,
-    }
 }

@@ -205,7 +205,7 @@ fn what_is_no_declaration_is_refused_with_its_place() {
     let start = "DEFINITION\nNAME A ;\nENTITIES:\n F, G : FACE ; E : EDGE ;\n";
     for (rest, line, said) in [
         ("EDGE TYPE: F : STRAIGHT ;", 5, "a role that is an edge"),
-        ("EDGE TYPE: E : ROUND ;", 5, "STRAIGHT, CONVEX or CONCAVE"),
+        ("EDGE TYPE: E : ROUND ;", 5, "STRAIGHT or CIRCULAR"),
         (
             "CONNECTIVITY: F: (G, E, BENT) ;",
             5,

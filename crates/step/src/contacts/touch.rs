@@ -223,6 +223,7 @@ mod tests {
         Face {
             entity: 1,
             halves: Vec::new(),
+            edges: Vec::new(),
             surface,
             material,
             outline: Vec::new(),
