@@ -67,3 +67,13 @@ fn all_trees_are_plain_urdf() {
         );
     }
 }
+
+#[test]
+fn places_of_constraints_are_worked_out_before_their_rows() {
+    // Pinocchio 4 leaves the places of new data at the origin of the world, and its rows are those of other points.
+    let reading = read(FOUR_BAR, "four_bar.urdf", &[]).unwrap();
+    let text = to_pinocchio(&reading.mechanism).unwrap().text;
+    let at = |part: &str| text.find(part).unwrap();
+    let (places, rows) = (at("made.calc(model, data, there)"), at("getConstraintJacobian("));
+    assert!(at("there = made.createData()") < places && places < rows);
+}

@@ -315,7 +315,10 @@ def all_rows(model, constraints, configuration):
     pinocchio.computeJointJacobians(model, data, configuration)
     rows = [coupling_rows(model)]
     for made in constraints:
-        rows.append(pinocchio.getConstraintJacobian(model, data, made, made.createData()))
+        there = made.createData()
+        if hasattr(made, "calc"):  # Since Pinocchio 4 the places of a constraint are not worked out with its Jacobian.
+            made.calc(model, data, there)
+        rows.append(pinocchio.getConstraintJacobian(model, data, made, there))
     return numpy.vstack(rows)
 
 
