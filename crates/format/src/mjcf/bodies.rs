@@ -334,11 +334,6 @@ impl<'a> Mjcf<'a> {
         }
         let at = one_after_another(&jointed.frame, &at);
         let axis = self.axis_of(joint, of)?;
-        let digits = axis.0.iter().filter_map(Number::stated);
-        let decimals = digits
-            .filter(|digits| digits.significant > 0)
-            .map(|digits| digits.decimals);
-        self.decimals_of_axes = decimals.fold(self.decimals_of_axes, i32::max);
         let limit = match kind {
             JointKind::Spherical => None,
             _ => self.limit(joint, of, kind)?,
