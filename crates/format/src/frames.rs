@@ -1,9 +1,9 @@
 //! Frames one after another, in doubles where digits cannot be kept; these know the literals behind them.
 
 use super::quaternion::{angles_of, of_columns};
-use kutzbach_math::number::{Inputs, Number, Quantity};
+use kutzbach_math::number::{Inputs, Number, Quantity, Stated};
 use kutzbach_math::space::Rigid;
-use kutzbach_model::mechanism::Frame;
+use kutzbach_model::mechanism::{Frame, Precision};
 
 /// A number in full double precision.
 pub(super) fn in_full(value: f64) -> Number {
@@ -37,15 +37,18 @@ pub(super) fn added(quantity: Quantity, a: &Number, b: &Number) -> Number {
     (a + b).derived_from(inputs)
 }
 
-/// So many times a number, known so many times as badly; of a whole number it is exact.
+/// So many times a number, known so many times as badly; of one in few decimals, which was chosen, it is what one would write.
 pub(super) fn multiple(quantity: Quantity, number: &Number, times: usize) -> Number {
     let count = Number::integer(i64::try_from(times).unwrap_or(i64::MAX));
     let product = &count * number;
     if times == 1 || number.is_zero() {
         return number.clone();
     }
-    if number.stated().is_none_or(|own| own.decimals <= 0) && number.inputs().is_empty() {
-        return product;
+    let is_few = |own: Stated| own.decimals <= Precision::EXACT_DECIMALS;
+    if number.stated().is_none_or(is_few) && number.inputs().is_empty() {
+        let text = product.decimal_text(Precision::EXACT_DECIMALS.unsigned_abs());
+        let written = text.and_then(|text| Number::decimal(&text).ok());
+        return written.unwrap_or(product);
     }
     let mut inputs = Inputs::default();
     inputs.add(quantity, number, times as f64);
