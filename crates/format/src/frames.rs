@@ -37,6 +37,15 @@ pub(super) fn added(quantity: Quantity, a: &Number, b: &Number) -> Number {
     (a + b).derived_from(inputs)
 }
 
+/// The middle of two coordinates (m), known as well as the digits of both say.
+pub(super) fn middle(a: &Number, b: &Number) -> Number {
+    let half = Number::ratio(1, 2).unwrap_or_else(Number::one);
+    let mut inputs = Inputs::default();
+    inputs.add(Quantity::Length, a, 0.5);
+    inputs.add(Quantity::Length, b, 0.5);
+    (&(a + b) * &half).derived_from(inputs)
+}
+
 /// So many times a number, known so many times as badly; of one in few decimals, which was chosen, it is what one would write.
 pub(super) fn multiple(quantity: Quantity, number: &Number, times: usize) -> Number {
     let count = Number::integer(i64::try_from(times).unwrap_or(i64::MAX));
@@ -92,5 +101,41 @@ pub(super) fn one_after_another(first: &Frame, second: &Frame) -> Frame {
     Frame {
         position: [0, 1, 2].map(|i| sum(&first.position[i], &second.position[i])),
         roll_pitch_yaw: second.roll_pitch_yaw.clone(),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn known(number: &Number) -> (f64, Vec<(&str, f64)>) {
+        let inputs = number.inputs().iter();
+        let literals = inputs.map(|own| (own.literal.literal_text().unwrap(), own.slope));
+        (number.value(), literals.collect())
+    }
+
+    #[test]
+    fn middles_and_multiples_know_their_literals() {
+        let [a, b, few] = ["0.1234", "0.2345", "0.25"].map(|text| Number::decimal(text).unwrap());
+        let between = middle(&a, &b);
+        let halves = vec![("0.1234", 0.5), ("0.2345", 0.5)];
+        assert_eq!(known(&between), (0.17895, halves));
+        let thrice = multiple(Quantity::Length, &a, 3);
+        assert_eq!(known(&thrice), (0.3702, vec![("0.1234", 3.0)]));
+        // Known as well as what it is a multiple of.
+        let twice = multiple(Quantity::Length, &between, 2);
+        let ones = vec![("0.1234", 1.0), ("0.2345", 1.0)];
+        assert_eq!(known(&twice), (0.3579, ones));
+        let chosen = multiple(Quantity::Length, &few, 3);
+        assert_eq!(
+            (known(&chosen), chosen.literal_text()),
+            ((0.75, Vec::new()), Some("0.75"))
+        );
+        assert_eq!(
+            multiple(Quantity::Length, &a, 1).literal_text(),
+            Some("0.1234")
+        );
+        assert!(multiple(Quantity::Length, &a, 0).is_zero());
     }
 }

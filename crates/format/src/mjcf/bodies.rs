@@ -7,7 +7,7 @@ use super::{Known, Mjcf, Place, SOFT, WORLD};
 use crate::WarningKind;
 use crate::element::Element;
 use crate::error::Outcome;
-use crate::frames::{difference, one_after_another};
+use crate::frames::{difference, middle, one_after_another};
 use crate::words::quoted;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind};
@@ -383,10 +383,9 @@ impl<'a> Mjcf<'a> {
 /// The frame of a site or a geom that is drawn from one point to another: in the middle, its z axis along them.
 pub(super) fn between([a, b, c, d, e, f]: [Number; 6]) -> Option<Frame> {
     let (from, to) = ([a, b, c], [d, e, f]);
-    let half = Number::ratio(1, 2)?;
     let along = [0, 1, 2].map(|i| difference(&from[i], &to[i]));
     Some(Frame {
-        position: [0, 1, 2].map(|i| &(&from[i] + &to[i]) * &half),
+        position: [0, 1, 2].map(|i| middle(&from[i], &to[i])),
         roll_pitch_yaw: least_turn(along.each_ref())?,
     })
 }
