@@ -61,6 +61,8 @@ struct Kind {
     slides: bool,
     /// Whether the closing hinge is a degree off the plane's normal.
     spoiled: bool,
+    /// The pitch of the frames is so near to a right angle (rad), where roll and yaw turn about nearly one axis; elsewhere anything.
+    upright: Option<f64>,
 }
 
 fn turned_at_random(random: &mut SplitMix64) -> UnitQuaternion<f64> {
@@ -84,8 +86,12 @@ fn drawn(seed: u64, kind: Kind) -> Drawn {
         tilt * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), way.y.atan2(way.x))
     };
     let mut placed = |at: Vector3<f64>, in_plane: UnitQuaternion<f64>| {
-        let turn = match seed % 2 {
-            0 => in_plane,
+        let turn = match (seed % 2, kind.upright) {
+            (_, Some(off)) => {
+                let [roll, off, yaw] = [3.0, off, 3.0].map(|most| most * random.symmetric());
+                UnitQuaternion::from_euler_angles(roll, std::f64::consts::FRAC_PI_2 - off, yaw)
+            }
+            (0, None) => in_plane,
             _ => turned_at_random(&mut random),
         };
         Isometry3::from_parts(Translation3::from(tilt * at), turn)
@@ -292,7 +298,11 @@ fn assert_planar(file: &str, written: impl Fn(&Drawn, Print) -> String) {
         for seed in 0..12 {
             // Ten four-bars and two slider-cranks; half of the spoiled ones are enough.
             let slides = seed >= 10;
-            let kind = |spoiled| Kind { slides, spoiled };
+            let kind = |spoiled| Kind {
+                slides,
+                spoiled,
+                upright: None,
+            };
             ask(seed, print, kind(false));
             if seed < 4 || slides {
                 ask(seed, print, kind(true));
@@ -349,6 +359,36 @@ fn of_mjcf_in_radians() {
     });
 }
 
+/// Where the pitch is nearly a right angle roll and yaw are known badly, each by itself, and the pose as well as elsewhere.
+#[test]
+fn of_frames_that_stand_nearly_upright() {
+    type Writes = fn(&Drawn, Print) -> String;
+    let sources: [(&str, Writes); 4] = [
+        ("tilted.xml", |drawn, print| {
+            mjcf(drawn, print, Turn::Quaternion)
+        }),
+        ("tilted.xml", |drawn, print| {
+            mjcf(drawn, print, Turn::Radians)
+        }),
+        ("tilted.sdf", |drawn, print| sdf(drawn, print, false, false)),
+        ("tilted.sdf", |drawn, print| sdf(drawn, print, true, true)),
+    ];
+    for (file, written) in sources {
+        for off in [2e-2, 1e-3, 1e-6] {
+            for (seed, decimals, spoiled) in [(1, 4, false), (2, 6, false), (3, 6, true)] {
+                let kind = Kind {
+                    slides: false,
+                    spoiled,
+                    upright: Some(off),
+                };
+                let text = written(&drawn(seed, kind), Print::Decimals(decimals));
+                let expected = Some(usize::from(!spoiled));
+                assert_eq!(finite(&text, file), expected, "{seed} {off:e}\n{text}");
+            }
+        }
+    }
+}
+
 /// What was read from poses that are multiplied moves after it was written by `convert` and read again, and what is a degree off does not.
 #[test]
 fn converted_they_are_what_they_were() {
@@ -371,6 +411,7 @@ fn converted_they_are_what_they_were() {
             let kind = Kind {
                 slides: false,
                 spoiled,
+                upright: None,
             };
             let text = written(&drawn(seed, kind), print);
             let reading = read(&text, file, &[]).unwrap();

@@ -1,9 +1,9 @@
 //! Frames one after another, in doubles where digits cannot be kept; these know the literals behind them.
 
 use super::quaternion::{angles_of, of_columns};
-use kutzbach_math::number::{Inputs, Number, Quantity};
+use kutzbach_math::number::{Inputs, Number, Quantity, Stated};
 use kutzbach_math::space::Rigid;
-use kutzbach_model::mechanism::Frame;
+use kutzbach_model::mechanism::{Frame, Precision};
 
 /// A number in full double precision.
 pub(super) fn in_full(value: f64) -> Number {
@@ -37,15 +37,27 @@ pub(super) fn added(quantity: Quantity, a: &Number, b: &Number) -> Number {
     (a + b).derived_from(inputs)
 }
 
-/// So many times a number, known so many times as badly; of a whole number it is exact.
+/// The middle of two coordinates (m), known as well as the digits of both say.
+pub(super) fn middle(a: &Number, b: &Number) -> Number {
+    let half = Number::ratio(1, 2).unwrap_or_else(Number::one);
+    let mut inputs = Inputs::default();
+    inputs.add(Quantity::Length, a, 0.5);
+    inputs.add(Quantity::Length, b, 0.5);
+    (&(a + b) * &half).derived_from(inputs)
+}
+
+/// So many times a number, known so many times as badly; of one in few decimals, which was chosen, it is what one would write.
 pub(super) fn multiple(quantity: Quantity, number: &Number, times: usize) -> Number {
     let count = Number::integer(i64::try_from(times).unwrap_or(i64::MAX));
     let product = &count * number;
     if times == 1 || number.is_zero() {
         return number.clone();
     }
-    if number.stated().is_none_or(|own| own.decimals <= 0) && number.inputs().is_empty() {
-        return product;
+    let is_few = |own: Stated| own.decimals <= Precision::EXACT_DECIMALS;
+    if number.stated().is_none_or(is_few) && number.inputs().is_empty() {
+        let text = product.decimal_text(Precision::EXACT_DECIMALS.unsigned_abs());
+        let written = text.and_then(|text| Number::decimal(&text).ok());
+        return written.unwrap_or(product);
     }
     let mut inputs = Inputs::default();
     inputs.add(quantity, number, times as f64);
@@ -89,5 +101,41 @@ pub(super) fn one_after_another(first: &Frame, second: &Frame) -> Frame {
     Frame {
         position: [0, 1, 2].map(|i| sum(&first.position[i], &second.position[i])),
         roll_pitch_yaw: second.roll_pitch_yaw.clone(),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn known(number: &Number) -> (f64, Vec<(&str, f64)>) {
+        let inputs = number.inputs().iter();
+        let literals = inputs.map(|own| (own.literal.literal_text().unwrap(), own.slope));
+        (number.value(), literals.collect())
+    }
+
+    #[test]
+    fn middles_and_multiples_know_their_literals() {
+        let [a, b, few] = ["0.1234", "0.2345", "0.25"].map(|text| Number::decimal(text).unwrap());
+        let between = middle(&a, &b);
+        let halves = vec![("0.1234", 0.5), ("0.2345", 0.5)];
+        assert_eq!(known(&between), (0.17895, halves));
+        let thrice = multiple(Quantity::Length, &a, 3);
+        assert_eq!(known(&thrice), (0.3702, vec![("0.1234", 3.0)]));
+        // Known as well as what it is a multiple of.
+        let twice = multiple(Quantity::Length, &between, 2);
+        let ones = vec![("0.1234", 1.0), ("0.2345", 1.0)];
+        assert_eq!(known(&twice), (0.3579, ones));
+        let chosen = multiple(Quantity::Length, &few, 3);
+        assert_eq!(
+            (known(&chosen), chosen.literal_text()),
+            ((0.75, Vec::new()), Some("0.75"))
+        );
+        assert_eq!(
+            multiple(Quantity::Length, &a, 1).literal_text(),
+            Some("0.1234")
+        );
+        assert!(multiple(Quantity::Length, &a, 0).is_zero());
     }
 }

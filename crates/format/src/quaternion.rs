@@ -147,7 +147,8 @@ pub(super) fn roll_pitch_yaw_of_rows(rows: &[[Number; 3]; 3]) -> Option<[Number;
 /// Products of columns of a matrix in doubles are off by so much, with some steps of computing behind it.
 const ORTHONORMAL: f64 = 3e-15;
 
-/// Products of columns beyond this are no rotation that was rounded to three decimals, or left by a solver.
+/// Products of columns beyond this are no rotation that was rounded to three decimals, or left by a solver: entries that are off by half a unit of the third
+/// change a product by up to that times the sizes of all entries of two columns, 2 √3 at most.
 const NEARLY_ORTHONORMAL: f64 = 3e-3;
 
 /// The quaternion of a rotation that takes the axes to these columns, which are orthonormal.
@@ -319,6 +320,24 @@ mod tests {
         for (found, expected) in angles(&text).iter().zip([r, p, y]) {
             assert!((found - expected).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn a_matrix_is_a_rotation_within_three_decimals() {
+        let stretched = |by: f64| {
+            let text = format!("{by:.6}");
+            let [one, zero] = [&text[..], "0.000000"];
+            let rows = [
+                [one, zero, zero],
+                [zero, "1.000000", zero],
+                [zero, zero, "1.000000"],
+            ];
+            let rows = rows.map(|row| row.map(|entry| Number::decimal(entry).unwrap()));
+            roll_pitch_yaw_of_rows(&rows).is_some()
+        };
+        // The first column times itself is off by twice as much.
+        assert!(stretched(1.00149) && stretched(0.99851));
+        assert!(!stretched(1.00151) && !stretched(0.99849));
     }
 
     #[test]

@@ -13,7 +13,8 @@ use crate::frames::in_full;
 use kutzbach_math::number::Number;
 use kutzbach_math::space::dot;
 
-/// Directions count as parallel up to this sine; drawings are precise to 1e-9 and worse.
+/// Directions count as parallel where their cosine is off by no more than this (0.08°, which solvers of drawings leave): by so much of it the rate along the
+/// one is another than that along the other.
 const PARALLEL: f64 = 1e-6;
 
 /// What rounding leaves of a variable that is drawn at zero, of the size of the coordinates that it was computed from: some dozen products.

@@ -2,29 +2,25 @@
 //!
 //! Anchors are compared within the digits that they are written with. A coordinate that was rounded is off by up to half a unit of its last
 //! place; one with fewer digits than the longest of them was cut of its trailing zeros by its writer, or fits into them, and is known to the
-//! last place of all. Anchors of few decimals were chosen and are exact. So a difference of two coordinates is off by up to `u + v`, and a
-//! minor `a·d − b·c` of two differences by up to the sum of each factor's size times the doubt of the other, and the product of the doubts.
+//! last place of all. Anchors of few decimals were chosen and are exact. One that was worked out from literals is off by what these are, each times its
+//! slope. So a difference of two coordinates is off by up to `u + v`, and a minor `a·d − b·c` of two differences by up to the sum of each factor's size times
+//! the doubt of the other, and the product of the doubts.
 //!
-//! The line through two rounded anchors is known no better than they are. Its direction is half the difference of the two: what `u + v` is of
-//! the whole, half a unit of the last place is of the half. Where one coordinate alone differs, the line is along an axis, and exactly so.
+//! The line through two rounded anchors is known no better than they are: its direction is their difference, which knows the literals of both. Where one
+//! coordinate alone differs, the line is along an axis, and exactly so.
 
 use crate::frames::difference;
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Number, Quantity};
 use kutzbach_model::mechanism::{Direction, Precision};
+use std::collections::BTreeMap;
 
-/// Anchors nearer to one another than so many times their doubt say no direction that anybody meant.
+/// Anchors nearer to one another than so many times their doubt say no direction that anybody meant: it may be off by a twentieth, three degrees.
 const CLEAR: f64 = 20.0;
 
-/// Directions of so many decimals more than anchors have may be printed by one program.
-const NEAR: i32 = 3;
-
-/// Anchors that are off by less than this (m) were not rounded: their digits are those that doubles have.
-const ROUNDED: f64 = 1e-13;
-
-/// Numbers that were computed in doubles are off by so much of 1 and of their size.
+/// Numbers that were computed in doubles are off by so much of 1 and of their size: some fifty roundings.
 const ROUNDING: f64 = 1e-14;
 
-/// Numbers of so many decimals at most are not the print of a double.
+/// Numbers of so many decimals at most are not the print of a double, which has fifteen ([`in_full`](crate::frames::in_full)).
 const SHORT: u32 = 14;
 
 /// What anchors hold.
@@ -50,9 +46,11 @@ pub(super) struct Meaning {
     pub(super) farthest: usize,
 }
 
-/// The way from the first anchor to another one, and how far each part of it may be off.
+/// The way from the first anchor to another one, as numbers that know the literals behind them, and how far each part of it may be off.
 struct Way {
     numbers: [Number; 3],
+    /// The same without the literals.
+    plain: [Number; 3],
     off: [f64; 3],
 }
 
@@ -74,38 +72,14 @@ impl Way {
         self.numbers.iter().all(Number::is_zero)
     }
 
-    /// The direction, stated as well as its anchors are, in as many decimals as the file's directions have.
-    fn direction(&self, of_directions: i32) -> Direction {
-        let apart = self.numbers.iter().filter(|part| !part.is_zero()).count();
-        let chosen = u32::try_from(Precision::EXACT_DECIMALS).unwrap_or(0);
-        let is_chosen = |part: &Number| part.decimal_text(chosen).is_some();
-        // What was worked out from literals knows these.
-        let is_worked_out = self.numbers.iter().any(|part| !part.inputs().is_empty());
-        let is_exact = self.off.iter().all(|off| *off < ROUNDED) || is_worked_out;
-        let half = Number::ratio(1, 2).filter(|_| apart > 1 && !is_exact);
-        let (Some(half), false) = (half, self.numbers.iter().all(is_chosen)) else {
-            return Direction(self.numbers.clone());
-        };
-        // A difference of this doubt states so many decimals, when it is halved.
-        let decimals = self.off.map(|off| {
-            let decimals = (1e-9 - off.log10()).floor() as i32;
-            (off > 0.0).then_some(decimals)
-        });
-        let finest = decimals.into_iter().flatten().max().unwrap_or(0);
-        // Directions have any length: this one gets that with which it has as many decimals as the others. Much longer ones are by another hand.
-        let more = match of_directions.saturating_sub(finest) {
-            more if of_directions > Precision::EXACT_DECIMALS && more <= NEAR => more.max(-20),
-            _ => 0,
-        };
-        let scale = Number::decimal(&format!("1e{}", -more)).unwrap_or_else(|_| Number::one());
-        let scale = &scale * &half;
-        Direction([0, 1, 2].map(|i| {
-            let part = &self.numbers[i] * &scale;
-            match decimals[i].filter(|_| !part.is_zero()) {
-                Some(decimals) => part.stating(decimals + more),
-                None => part,
-            }
-        }))
+    /// The direction: known as well as its anchors are, and exactly where they were chosen.
+    fn direction(&self) -> Direction {
+        let literals = self.numbers.iter().flat_map(literals);
+        let mut stated = literals.filter_map(|(_, literal, _)| literal.stated());
+        match stated.all(|own| own.decimals <= Precision::EXACT_DECIMALS) {
+            true => Direction(self.plain.clone()),
+            false => Direction(self.numbers.clone()),
+        }
     }
 
     /// Whether both are on one line: as written, and within their digits.
@@ -125,30 +99,50 @@ impl Way {
     }
 }
 
-/// A coordinate of the way from one anchor to another. What a frame was composed of keeps the literals behind it.
+/// A coordinate of the way from one anchor to another. One number is rounded once.
 fn apart(from: &Number, to: &Number) -> Number {
-    match from.inputs().is_empty() && to.inputs().is_empty() {
-        true => to - from,
+    match from == to {
+        true => Number::zero(),
         false => difference(to, from),
+    }
+}
+
+/// Most decimals and most significant digits of the literals of one quantity.
+type Digits = BTreeMap<Quantity, (i32, u32)>;
+
+/// The literals behind a coordinate: what each measures, the literal, and how much of its doubt the coordinate has.
+fn literals(number: &Number) -> Vec<(Quantity, &Number, f64)> {
+    match number.inputs() {
+        [] => vec![(Quantity::Length, number, 1.0)],
+        inputs => {
+            let all = inputs.iter();
+            all.map(|own| (own.quantity, &own.literal, own.slope))
+                .collect()
+        }
     }
 }
 
 /// How far each coordinate may be off.
 pub(super) fn doubts(anchors: &[[Number; 3]]) -> Vec<[f64; 3]> {
-    let all = || anchors.iter().flatten();
-    let decimals = |number: &Number| match number.stated() {
-        Some(stated) => Some(stated.decimals),
-        None => number.coarsest_input(),
+    let mut digits = Digits::new();
+    for (quantity, literal, _) in anchors.iter().flatten().flat_map(literals) {
+        if let Some(own) = literal.stated() {
+            let (decimals, significant) = digits.entry(quantity).or_insert((0, 0));
+            *decimals = own.decimals.max(*decimals);
+            *significant = own.significant.max(*significant);
+        }
+    }
+    let of_literal = |(quantity, literal, slope): (Quantity, &Number, f64)| {
+        let finest = digits.get(&quantity);
+        let Some((finest, longest)) = finest.filter(|(most, _)| *most > Precision::EXACT_DECIMALS)
+        else {
+            return 0.0;
+        };
+        let own = literal.stated().filter(|own| own.significant == *longest);
+        slope * 0.5 * 0.1f64.powi(own.map_or(*finest, |own| own.decimals))
     };
-    let finest = all().filter_map(decimals).max();
-    let finest = finest.filter(|most| *most > Precision::EXACT_DECIMALS);
-    let longest = all().filter_map(Number::stated).map(|own| own.significant);
-    let longest = longest.max().unwrap_or(0);
     let doubt = |number: &Number| {
-        let by_digits = finest.map_or(0.0, |finest| {
-            let own = number.stated().filter(|own| own.significant == longest);
-            0.5 * 0.1f64.powi(own.map_or(finest, |own| own.decimals))
-        });
+        let by_digits: f64 = literals(number).into_iter().map(of_literal).sum();
         match number.decimal_text(SHORT) {
             Some(_) => by_digits,
             None => by_digits.max(ROUNDING * (1.0 + number.value().abs())),
@@ -158,12 +152,13 @@ pub(super) fn doubts(anchors: &[[Number; 3]]) -> Vec<[f64; 3]> {
     anchors.iter().map(of_anchor).collect()
 }
 
-/// What anchors in one body hold together, beside directions of the file that have at most so many decimals.
-pub(super) fn meaning(anchors: &[[Number; 3]], of_directions: i32) -> Meaning {
+/// What anchors in one body hold together.
+pub(super) fn meaning(anchors: &[[Number; 3]]) -> Meaning {
     let off = doubts(anchors);
     let ways: Vec<Way> = (1..anchors.len())
         .map(|i| Way {
             numbers: [0, 1, 2].map(|k| apart(&anchors[0][k], &anchors[i][k])),
+            plain: [0, 1, 2].map(|k| &anchors[i][k] - &anchors[0][k]),
             off: [0, 1, 2].map(|k| match anchors[i][k] == anchors[0][k] {
                 // One number is rounded once.
                 true => 0.0,
@@ -187,7 +182,7 @@ pub(super) fn meaning(anchors: &[[Number; 3]], of_directions: i32) -> Meaning {
     }
     let along: Vec<(bool, bool)> = ways.iter().map(|way| longest.is_along(way)).collect();
     let held = match along.iter().all(|(_, within)| *within) {
-        true => Held::Line(longest.direction(of_directions)),
+        true => Held::Line(longest.direction()),
         false => Held::All,
     };
     Meaning {
@@ -215,12 +210,8 @@ mod tests {
             .collect()
     }
 
-    fn of_all(anchors: &[&str], of_directions: i32) -> Meaning {
-        meaning(&points(anchors), of_directions)
-    }
-
     fn of(anchors: &[&str]) -> Meaning {
-        of_all(anchors, 0)
+        meaning(&points(anchors))
     }
 
     fn word(anchors: &[&str]) -> (&'static str, bool) {
@@ -274,52 +265,69 @@ mod tests {
 
     #[test]
     fn a_direction_is_known_as_well_as_its_anchors() {
-        let direction =
-            |anchors: &[&str], of_directions: i32| match of_all(anchors, of_directions).held {
-                Held::Line(direction) => direction.0.map(|part| {
-                    let stated = part
-                        .stated()
-                        .map(|stated| (stated.decimals, stated.significant));
-                    (part.value(), stated)
-                }),
-                other => panic!("{other:?}"),
-            };
-        let rounded = ["0.1234 0.2 0.4321", "0.1501 0.2 0.4678"];
+        let direction = |anchors: &[&str]| match of(anchors).held {
+            Held::Line(direction) => direction.0.map(|part| {
+                let inputs = part.inputs().iter();
+                let literals = inputs.map(|own| {
+                    let text = own.literal.literal_text().unwrap_or_default();
+                    assert_eq!((own.quantity, own.slope), (Quantity::Length, 1.0));
+                    text.trim_start_matches('-').to_owned()
+                });
+                (part.value(), literals.collect::<Vec<String>>())
+            }),
+            other => panic!("{other:?}"),
+        };
+        let of_literals = |value: f64, literals: &[&str]| {
+            let owned = literals.iter().map(|text| (*text).to_owned());
+            (value, owned.collect::<Vec<String>>())
+        };
+        let mut found = direction(&["0.1234 0.2 0.4321", "0.1501 0.2 0.4678"]);
+        found.iter_mut().for_each(|(_, literals)| literals.sort());
         let expected = [
-            (0.01335, Some((4, 3))),
-            (0.0, None),
-            (0.01785, Some((4, 3))),
+            of_literals(0.0267, &["0.1234", "0.1501"]),
+            of_literals(0.0, &[]),
+            of_literals(0.0357, &["0.4321", "0.4678"]),
         ];
-        assert_eq!(direction(&rounded, 0), expected);
-        assert_eq!(direction(&rounded, 4), expected);
-        let longer = [
-            (0.001335, Some((5, 3))),
-            (0.0, None),
-            (0.001785, Some((5, 3))),
-        ];
-        assert_eq!(direction(&rounded, 5), longer);
-        let shorter = [(0.1335, Some((3, 3))), (0.0, None), (0.1785, Some((3, 3)))];
-        assert_eq!(direction(&rounded, 3), shorter);
-        assert_eq!(direction(&rounded, 15), expected);
-        let in_full = ["0 0 0", "0.12345678901234 0.3 0"];
-        let expected = [(0.12345678901234, None), (0.3, None), (0.0, None)];
-        assert_eq!(direction(&in_full, 3), expected);
-        // Along an axis, and by numbers that somebody chose, it is what is written.
-        let along = ["0.123456 0.2 0.3", "0.123456 0.2 0.4"];
-        assert_eq!(
-            direction(&along, 6),
-            [(0.0, None), (0.0, None), (0.1, None)]
-        );
-        let chosen = ["0.125 0.25 0", "0.125 0.28 0.04"];
-        assert_eq!(
-            direction(&chosen, 0),
-            [(0.0, None), (0.03, None), (0.04, None)]
-        );
+        assert_eq!(found, expected);
+        // Numbers that somebody chose are what they are.
+        let chosen = [0.0, 0.03, 0.04].map(|value| of_literals(value, &[]));
+        assert_eq!(direction(&["0.125 0.25 0", "0.125 0.28 0.04"]), chosen);
+        let along = [0.0, 0.0, 0.1].map(|value| of_literals(value, &[]));
+        assert_eq!(direction(&["0.123456 0.2 0.3", "0.123456 0.2 0.4"]), along);
+    }
+
+    /// A coordinate that is twice a literal, and three times another one, is off by what these are.
+    #[test]
+    fn coordinates_that_are_worked_out_are_as_doubtful_as_their_literals() {
+        let number = |text: &str| Number::decimal(text).expect("a number");
+        let worked_out = |angle: &str| {
+            let mut inputs = kutzbach_math::number::Inputs::default();
+            inputs.add(Quantity::Length, &number("0.1234"), 2.0);
+            inputs.add(Quantity::Angle, &number(angle), 3.0);
+            number("0.123456789012345").derived_from(inputs)
+        };
+        let zero = Number::zero;
+        for (angle, expected) in [("0.123457", 1e-4 + 1.5e-6), ("0.25", 1e-4)] {
+            let anchors = [[worked_out(angle), zero(), zero()]];
+            let found = doubts(&anchors)[0];
+            assert!((found[0] / expected - 1.0).abs() < 1e-9, "{found:?}");
+            assert_eq!(found[1..], [0.0, 0.0]);
+        }
+    }
+
+    #[test]
+    fn computed_doubles_are_off_by_their_roundings() {
+        let off = |text: &str| doubts(&points(&[text]))[0][0];
+        // Fifteen decimals are the print of a double; fourteen are somebody's digits.
+        assert!((off("0.123456789012345 0 0") - 1.123456789012345e-14).abs() < 1e-20);
+        assert!((off("0.12345678901234 0 0") - 0.5e-14).abs() < 1e-20);
     }
 
     #[test]
     fn a_direction_of_a_few_last_places_is_unclear() {
-        assert!(of(&["0.123457 0 0", "0.123450 0 0"]).is_unclear);
+        // Twenty times the doubt of both, a millionth.
+        assert!(of(&["0.123457 0 0", "0.123438 0 0"]).is_unclear);
+        assert!(!of(&["0.123457 0 0", "0.123436 0 0"]).is_unclear);
         assert!(!of(&["0.123457 0 0", "0.123 0 0"]).is_unclear);
     }
 }

@@ -126,7 +126,10 @@ fn taken(widths: &[(usize, usize)], parts: &[Element<'_>]) -> String {
     let mut places = Vec::new();
     let mut next = 0;
     for (at, width) in widths {
-        if within.iter().any(|range| range.contains(at)) {
+        // They stand one after another.
+        let after = within.partition_point(|range| range.start <= *at);
+        let around = after.checked_sub(1).and_then(|index| within.get(index));
+        if around.is_some_and(|range| range.contains(at)) {
             places.extend((next..next + width).map(|place| place.to_string()));
         }
         next += width;

@@ -7,7 +7,7 @@ use super::{Known, Mjcf, Place, SOFT, WORLD};
 use crate::WarningKind;
 use crate::element::Element;
 use crate::error::Outcome;
-use crate::frames::{difference, one_after_another};
+use crate::frames::{difference, middle, one_after_another};
 use crate::words::quoted;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind};
@@ -334,11 +334,6 @@ impl<'a> Mjcf<'a> {
         }
         let at = one_after_another(&jointed.frame, &at);
         let axis = self.axis_of(joint, of)?;
-        let digits = axis.0.iter().filter_map(Number::stated);
-        let decimals = digits
-            .filter(|digits| digits.significant > 0)
-            .map(|digits| digits.decimals);
-        self.decimals_of_axes = decimals.fold(self.decimals_of_axes, i32::max);
         let limit = match kind {
             JointKind::Spherical => None,
             _ => self.limit(joint, of, kind)?,
@@ -388,10 +383,9 @@ impl<'a> Mjcf<'a> {
 /// The frame of a site or a geom that is drawn from one point to another: in the middle, its z axis along them.
 pub(super) fn between([a, b, c, d, e, f]: [Number; 6]) -> Option<Frame> {
     let (from, to) = ([a, b, c], [d, e, f]);
-    let half = Number::ratio(1, 2)?;
     let along = [0, 1, 2].map(|i| difference(&from[i], &to[i]));
     Some(Frame {
-        position: [0, 1, 2].map(|i| &(&from[i] + &to[i]) * &half),
+        position: [0, 1, 2].map(|i| middle(&from[i], &to[i])),
         roll_pitch_yaw: least_turn(along.each_ref())?,
     })
 }

@@ -180,7 +180,7 @@ impl<'a> Mjcf<'a> {
         let Some(points) = drawn else {
             return self.close_apart(group);
         };
-        let found = meaning(&points, self.decimals_of_axes);
+        let found = meaning(&points);
         let joint = self.joint_of(first, group.len(), &found);
         let joint = joint.at_home(&first.bodies[0], at(&points[0]), false);
         self.builder.joint(joint);
@@ -197,7 +197,7 @@ impl<'a> Mjcf<'a> {
         let (Some(first), Some(p), Some(q)) = (group.first(), side(0), side(1)) else {
             return group.iter().try_for_each(|own| self.ball(own));
         };
-        let mut found = meaning(&p, self.decimals_of_axes);
+        let mut found = meaning(&p);
         let Some((roll_pitch_yaw, exactly)) = turn_between([&p, &q], &found) else {
             return group.iter().try_for_each(|own| self.ball(own));
         };

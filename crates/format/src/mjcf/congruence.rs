@@ -3,7 +3,7 @@
 use super::anchors::{Held, Meaning, doubts};
 use super::pose::unit;
 use crate::quaternion::{angles_of, of_columns};
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Inputs, Number, Quantity};
 use kutzbach_math::space::{cross, dot, perpendicular};
 
 type Vector = [f64; 3];
@@ -16,9 +16,6 @@ const COINCIDE: f64 = 1e-12;
 
 /// A distance of two points, in one body and in the other, is off by the doubts of four coordinates.
 const OF_TWO_DISTANCES: f64 = 4.0;
-
-/// Decimals of an angle that is known as well as doubles are.
-const FULL: i32 = 15;
 
 /// Roll, pitch and yaw (rad) of the directions of the first body in the second one where the points of both, one for one, are the same; and
 /// whether they are to rounding, or within their digits only. Of points on one line it is a least turn.
@@ -58,8 +55,17 @@ pub(super) fn turn_between(
     }
     let columns = AXES.map(|axis| turned(&axis));
     let angles = angles_of(of_columns(columns))?;
+    // The ends of the longest way, in either body, turn it by so much when they are moved across it, and by less otherwise.
+    let mut inputs = Inputs::default();
+    // Points that were chosen are exact.
+    for side in sides.into_iter().filter(|_| doubt > 0.0) {
+        let ends = side.first().into_iter().chain(side.get(found.farthest));
+        for number in ends.flatten() {
+            inputs.add(Quantity::Length, number, 1.0 / length);
+        }
+    }
     Some((
-        angles.map(|angle| known_to(&angle, doubt / length)),
+        angles.map(|angle| angle.derived_from(inputs.clone())),
         exactly,
     ))
 }
@@ -90,17 +96,6 @@ fn axes(ways: &[Vec<Vector>; 2], along: [Vector; 2], is_line: bool) -> Option<[[
     Some([[x, cross(&z, &x), z], [u, cross(&w, &u), w]])
 }
 
-/// An angle (rad) in as many decimals as are known.
-fn known_to(angle: &Number, doubt: f64) -> Number {
-    let decimals = match doubt > 0.0 {
-        true => ((-doubt.log10()).floor() as i32).clamp(1, FULL),
-        false => FULL,
-    };
-    let decimals = usize::try_from(decimals).unwrap_or(0);
-    let text = format!("{:.decimals$}", angle.value());
-    Number::decimal(&text).unwrap_or_else(|_| angle.clone())
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::anchors::meaning;
@@ -119,7 +114,7 @@ mod tests {
 
     fn turn(one: &[&str], other: &[&str]) -> Option<([f64; 3], bool)> {
         let [one, other] = [points(one), points(other)];
-        let (angles, exactly) = turn_between([&one, &other], &meaning(&one, 0))?;
+        let (angles, exactly) = turn_between([&one, &other], &meaning(&one))?;
         Some((
             angles.map(|angle| (angle.value() * 1e4).round() / 1e4),
             exactly,
@@ -173,5 +168,19 @@ mod tests {
             &["0 0 0", "0 0 0.1"],
         );
         assert!(rounded.is_some_and(|(_, exactly)| !exactly));
+        // The angles know the ends, a tenth of a metre apart.
+        let literals = |one: &[&str], other: &[&str]| {
+            let [one, other] = [points(one), points(other)];
+            let found = turn_between([&one, &other], &meaning(&one));
+            let [roll, ..] = found.expect("a turn").0;
+            let slopes = roll.inputs().iter().map(|own| own.slope * 0.1);
+            slopes.collect::<Vec<f64>>()
+        };
+        let slopes = literals(&["0.1234 0 0", "0.1234 0 0.1"], &["0 0 0", "0 0.1 0"]);
+        assert!(
+            slopes.iter().any(|slope| (slope - 2.0).abs() < 1e-12),
+            "{slopes:?}"
+        );
+        assert!(literals(&["0 0 0", "0 0 0.1"], &["0 0 0", "0 0.1 0"]).is_empty());
     }
 }

@@ -31,7 +31,7 @@ pub(super) struct Step {
 impl Step {
     /// What a `<replicate>`, or the frame of a copy of one, says.
     pub(super) fn of(element: Element<'_>) -> Outcome<Self> {
-        let read = |name: &str| element.attribute(name).map(exactly).transpose();
+        let read = |name: &str| element.attribute(name).map(exactly::<3>).transpose();
         Ok(Self {
             offset: read("offset")?.unwrap_or_else(zeros),
             euler: read("euler")?.unwrap_or_else(zeros),

@@ -113,8 +113,6 @@ struct Mjcf<'a> {
     homes: BTreeMap<String, Place>,
     /// Bodies that a user moves.
     mocap: BTreeSet<String>,
-    /// Most decimals of any axis.
-    decimals_of_axes: i32,
     /// What `<flag>` says.
     switched_off: SwitchedOff,
     /// All names that the file gives bodies and joints, which nothing else is called by.
@@ -152,7 +150,6 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
         sites: BTreeMap::new(),
         homes: BTreeMap::new(),
         mocap: BTreeSet::new(),
-        decimals_of_axes: 0,
         switched_off: SwitchedOff::default(),
         given: BTreeSet::new(),
         followers: BTreeMap::new(),

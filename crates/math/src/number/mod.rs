@@ -376,44 +376,6 @@ impl Number {
         Self(inner)
     }
 
-    /// The value as a literal that states so many decimals, whatever digits its text has: what was computed from rounded literals is known no better
-    /// than they are. The nearest double of a value that no decimal of 60 places is.
-    ///
-    /// ```
-    /// # use kutzbach_math as kutzbach;
-    /// use kutzbach::number::Number;
-    /// let half = (&Number::decimal("0.2673")? * &Number::decimal("0.5")?).stating(4);
-    /// assert_eq!(half.source(), "0.13365");
-    /// assert_eq!(half.stated().map(|digits| (digits.decimals, digits.significant)), Some((4, 4)));
-    /// # Ok::<(), kutzbach::number::NumberError>(())
-    /// ```
-    #[must_use]
-    pub fn stating(&self, decimals: i32) -> Self {
-        const PLACES: u32 = 60;
-        let text = self.decimal_text(PLACES);
-        let text = text.unwrap_or_else(|| format!("{:.17e}", self.value()));
-        let Ok(mut read) = Self::decimal(&text) else {
-            return self.clone();
-        };
-        // Nobody else has it yet.
-        if let Some(fresh) = Arc::get_mut(&mut read.0) {
-            fresh.coarsest = (decimals > 0).then_some(decimals);
-            if let Some(literal) = &mut fresh.literal {
-                let written = literal.written;
-                let beyond = i64::from(written.decimals) - i64::from(decimals);
-                let significant = match written.significant {
-                    0 => 0,
-                    digits => i64::from(digits).saturating_sub(beyond).max(0),
-                };
-                literal.stated = Some(Stated {
-                    decimals,
-                    significant: u32::try_from(significant).unwrap_or(u32::MAX),
-                });
-            }
-        }
-        read
-    }
-
     /// Fewest decimals among the literals read by [`Number::decimal`] that this number was computed from, by whatever
     /// operations. Integers count as exact and do not enter; `None` where nothing inexact did.
     #[must_use]
