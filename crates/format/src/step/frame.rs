@@ -43,17 +43,22 @@ pub(super) fn in_frame_of_most(
 }
 
 /// The frame whose z is the direction that most joints have, and whose x is the one that most have at right angles to it; where none is, from the first
-/// joint across z towards another. Its origin is at the first joint. As the displacement into it; `None` without a direction.
+/// joint with an axis or a centre across z towards another. Its origin is there. As the displacement into it; `None` without a direction.
 fn own_frame(joints: &[(Geometry, Vector3<f64>)], same: f64) -> Option<Pose> {
     let directions = frequent(joints, same);
     let z = *directions.first()?;
-    let origin = place(joints.first()?);
+    // What has an axis or a centre first: where planes touch each other is nobody's measure.
+    let with_points = joints
+        .iter()
+        .filter(|(geometry, _)| geometry.point().is_some());
+    let points: Vec<Vector3<f64>> = with_points.chain(joints).map(place).collect();
+    let origin = *points.first()?;
     let across = |v: Vector3<f64>, least: f64| (v - z * z.dot(&v)).try_normalize(least);
     let square = directions.iter().find(|d| d.dot(&z).abs() <= same);
     let x = square
         .and_then(|d| across(*d, 0.5))
         .or_else(|| {
-            let mut others = joints.iter().map(|joint| place(joint) - origin);
+            let mut others = points.iter().map(|point| point - origin);
             others.find_map(|other| across(other, NEAREST))
         })
         .or_else(|| across(Vector3::x(), 0.5))
