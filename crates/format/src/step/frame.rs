@@ -6,7 +6,7 @@
 //! themselves are written turned, the frame is that of the direction which most joints have, and of the one that most have at right angles to it.
 
 use super::geometry::Geometry;
-use super::standing::{Agreement, are_round};
+use super::standing::{Agreement, standing};
 use kutzbach_math::group::Pose;
 use nalgebra::{Matrix3, Vector3};
 
@@ -14,8 +14,8 @@ use nalgebra::{Matrix3, Vector3};
 const NEAREST: f64 = 1e-4;
 
 /// The geometry of joints, each with a point where it is drawn, in the frame of the assembly; in that of the ground, which stands at `ground` in
-/// the assembly, where more of the directions are along an axis of coordinates there; or in that of most joints, where more still are and the numbers were not
-/// a designer's round ones.
+/// the assembly, where more of the directions are along an axis of coordinates there; or in that of most joints, where more still are, unless some are
+/// straight already and the numbers a designer's round ones.
 pub(super) fn in_frame_of_most(
     joints: Vec<(Geometry, Vector3<f64>)>,
     ground: &Pose,
@@ -34,10 +34,11 @@ pub(super) fn in_frame_of_most(
         true => of_ground,
         false => joints,
     };
-    let points: Vec<Vector3<f64>> = best.iter().map(place).collect();
-    let better = |own: &Vec<_>| along_axes(own, same) > along_axes(&best, same);
+    let straight = along_axes(&best, same);
+    let better = |own: &Vec<_>| along_axes(own, same) > straight;
+    let designed = || straight > 0 && standing(&best, within, true).0.is_exact();
     match of_most.filter(better) {
-        Some(own) if !are_round(&points, within.length) => own,
+        Some(own) if !designed() => own,
         _ => best,
     }
 }
