@@ -4,6 +4,7 @@ use crate::boundary::{
     between_faces, between_segments, line_to_face, line_to_segment, plane_to_face, plane_to_points,
     point_to_face, segment_to_face,
 };
+use crate::clearance::clearance;
 use crate::decide::{Decider, Outcome};
 use crate::entity::{Entity, Plane, Segment, no_pair};
 use crate::error::GeometryError;
@@ -15,8 +16,8 @@ use std::cmp::Ordering;
 /// The least distance of points of the two, never below zero.
 ///
 /// Of point, line, segment and plane each with each, and of each of them and a face with a face; of point and plane with
-/// circle, cylinder, cone and sphere, of a line with cylinder and sphere, all of which are empty: a point inside is away from
-/// them. What meets has distance 0; whether lines or planes do is a choice, of which [`Outcome::certainty`] tells the
+/// circle, cylinder, cone and sphere, of a line and a segment with cylinder and sphere, of cylinder and sphere each with each, all of which are empty:
+/// a point inside is away from them. What meets has distance 0; whether lines or planes do is a choice, of which [`Outcome::certainty`] tells the
 /// ground.
 ///
 /// # Errors
@@ -59,13 +60,19 @@ pub fn distance<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Outcome<S>, G
         (Entity::Face(_) | Entity::Segment(_), _) | (_, Entity::Face(_) | Entity::Segment(_)) => {
             match bounded(a, b, &mut decider)? {
                 Some(square) => root(&square)?,
-                None => return Err(no_pair("distance", a, b)),
+                None => {
+                    let found = clearance(a, b, &mut decider)?;
+                    found.ok_or_else(|| no_pair("distance", a, b))?
+                }
             }
         }
-        _ => match distance_round(a, b, &mut decider)? {
-            Some(distance) => distance,
-            None => return Err(no_pair("distance", a, b)),
-        },
+        _ => {
+            let found = match distance_round(a, b, &mut decider)? {
+                None => clearance(a, b, &mut decider)?,
+                found => found,
+            };
+            found.ok_or_else(|| no_pair("distance", a, b))?
+        }
     };
     Ok(decider.outcome(found))
 }
@@ -106,7 +113,8 @@ fn bounded<S: Scalar>(
     Ok(Some(found))
 }
 
-fn to_line<S: Scalar>(
+/// From the line through `base` along `direction`.
+pub(crate) fn to_line<S: Scalar>(
     point: &[S; 3],
     base: &[S; 3],
     direction: &[S; 3],
@@ -124,7 +132,7 @@ fn to_plane<S: Scalar>(point: &[S; 3], plane: &Plane<S>) -> Result<S, GeometryEr
 }
 
 /// From the nearer end where the foot is outside.
-fn to_segment<S: Scalar>(
+pub(crate) fn to_segment<S: Scalar>(
     point: &[S; 3],
     segment: &Segment<S>,
     decider: &mut Decider,
@@ -140,7 +148,8 @@ fn to_segment<S: Scalar>(
     to_line(point, from, direction)
 }
 
-fn of_lines<S: Scalar>(
+/// Of two lines, each a point and a direction.
+pub(crate) fn of_lines<S: Scalar>(
     a: (&[S; 3], &[S; 3]),
     b: (&[S; 3], &[S; 3]),
     decider: &mut Decider,

@@ -326,6 +326,8 @@ pub enum Found<S> {
     Face(Face<S>),
     /// A boundary.
     Boundary(Boundary<S>),
+    /// A circle.
+    Circle(Circle<S>),
     /// Two or more of these, none of which has others inside.
     Several(Vec<Found<S>>),
 }
@@ -374,6 +376,7 @@ impl<S> Found<S> {
             Self::Segment(x) => Some(Entity::Segment(x)),
             Self::Face(x) => Some(Entity::Face(x)),
             Self::Boundary(x) => Some(Entity::Boundary(x)),
+            Self::Circle(x) => Some(Entity::Circle(x)),
         }
     }
 }

@@ -4,18 +4,20 @@ use crate::boundary;
 use crate::decide::{Decider, Outcome};
 use crate::entity::{Direction, Entity, Found, Line, Plane, Point, Segment, no_pair};
 use crate::error::GeometryError;
+use crate::intersection_round::with_round;
 use crate::scalar::Scalar;
 use crate::triple::{along, cross, dot, minus, square};
 use std::cmp::Ordering;
 
 /// The points that belong to both: nothing, a point, a line, a segment or a plane; with a face a set of segments and points,
-/// or the face itself in its own plane.
+/// or the face itself in its own plane; with what is round a set of points or lines, or a circle.
 ///
-/// Of line, segment and plane each with each and with a face, but not of two segments. Two measured lines never certainly meet: where they
+/// Of line, segment and plane each with each, with a face, and with circle, cylinder, cone and sphere, but not of two segments. Two measured lines never certainly meet: where they
 /// may within their digits, the point is on the first one, and the certainty says so.
 ///
 /// # Errors
-/// For other pairs, and beyond the range of numbers.
+/// For other pairs, and beyond the range of numbers; for a line along the side of a cone, of which half is common, and for a plane that cuts an
+/// ellipse or another conic that is no circle.
 pub fn intersection<S: Scalar>(
     a: &Entity<S>,
     b: &Entity<S>,
@@ -42,7 +44,10 @@ pub fn intersection<S: Scalar>(
         (Entity::Plane(p), Entity::Face(f)) | (Entity::Face(f), Entity::Plane(p)) => {
             boundary::of_plane(p, f, &mut decider)?
         }
-        _ => return Err(no_pair("intersection", a, b)),
+        _ => {
+            let found = with_round(a, b, &mut decider)?;
+            found.ok_or_else(|| no_pair("intersection", a, b))?
+        }
     };
     Ok(decider.outcome(found))
 }
@@ -89,7 +94,8 @@ pub(crate) fn with_plane<S: Scalar>(
     Ok(Found::Point(Point(point)))
 }
 
-fn of_planes<S: Scalar>(
+/// Of two planes.
+pub(crate) fn of_planes<S: Scalar>(
     a: &Plane<S>,
     b: &Plane<S>,
     decider: &mut Decider,

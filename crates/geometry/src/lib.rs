@@ -33,6 +33,7 @@
 mod angle;
 pub mod ask;
 mod boundary;
+mod clearance;
 mod curved;
 mod decide;
 mod distance;
@@ -41,6 +42,7 @@ mod error;
 pub mod features;
 mod hull;
 mod intersection;
+mod intersection_round;
 mod join;
 mod logical;
 mod measured;

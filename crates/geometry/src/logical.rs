@@ -5,7 +5,7 @@ use crate::decide::{Answer, Decider, Sign, zero_vector};
 use crate::entity::{Entity, Found, Line, Plane, Segment, no_pair};
 use crate::error::GeometryError;
 use crate::planar::Place;
-use crate::round::{coincide_round, on_round};
+use crate::round::{coincide_round, in_round, on_round};
 use crate::scalar::Scalar;
 use crate::triple::{cross, dot, minus};
 
@@ -124,8 +124,8 @@ pub fn colinear<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
     }
 }
 
-/// Whether one plane contains both: lines and segments among themselves, and anything with a plane or a face, which
-/// stands for its plane.
+/// Whether one plane contains both: lines and segments among themselves, and anything with a plane, or with a face or a circle, which
+/// stand for their planes.
 ///
 /// # Errors
 /// For vectors and directions, and for a point with what is no plane, which are always in one.
@@ -138,6 +138,7 @@ pub fn coplanar<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
 fn plane_of_face<S: Scalar>(entity: &Entity<S>) -> Option<Entity<S>> {
     match entity {
         Entity::Face(face) => Some(face.plane().clone().into()),
+        Entity::Circle(circle) => Some(circle.plane().clone().into()),
         _ => None,
     }
 }
@@ -155,11 +156,12 @@ fn in_one_plane<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
 }
 
 /// Whether the first is a part of the second: points, lines and segments in lines, segments and planes; points and segments
-/// in faces, faces in planes, points in solids; points on circles, cylinders, cones and spheres. Borders belong to what
-/// they bound.
+/// in faces, faces and circles in planes, points in solids; points on circles, cylinders, cones and spheres, lines on cylinders, segments on cylinders
+/// and cones, circles on cylinders, cones and spheres. Borders belong to what they bound.
 ///
 /// # Errors
-/// For other pairs, for a line in a segment or a face, which it never is, and for a boundary that is not one of a solid.
+/// For other pairs, for a line in a segment, a face or a cone and for what is straight in a circle or a sphere, which it never is, and for a boundary that
+/// is not one of a solid.
 pub fn contained<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, GeometryError> {
     match (a, b) {
         (Entity::Point(p), Entity::Plane(plane)) => Ok(in_plane(&p.0, plane)),
@@ -185,7 +187,8 @@ pub fn contained<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geom
             colinear(a, b).map_err(|_| no_pair("contained", a, b))
         }
         (Entity::Point(p), _) => on_round(p, b).ok_or_else(|| no_pair("contained", a, b)),
-        _ => Err(no_pair("contained", a, b)),
+        (Entity::Circle(circle), Entity::Plane(plane)) => Ok(one_plane(circle.plane(), plane)),
+        _ => in_round(a, b).ok_or_else(|| no_pair("contained", a, b)),
     }
 }
 

@@ -182,6 +182,50 @@ pub(crate) fn on_round<S: Scalar>(point: &Point<S>, entity: &Entity<S>) -> Optio
     }
 }
 
+/// Whether a line is on a cylinder, a segment on a cylinder or a cone, a circle on a cylinder, a cone or a sphere; none for other pairs.
+pub(crate) fn in_round<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Option<Answer> {
+    let along = |direction: &[S; 3], axis: &Line<S>| {
+        zero_vector(&cross(direction, axis.direction().components()))
+    };
+    Some(match (a, b) {
+        (Entity::Line(line), Entity::Cylinder(cylinder)) => {
+            along(line.direction().components(), cylinder.axis()).and(on_round(line.point(), b)?)
+        }
+        (Entity::Segment(segment), Entity::Cylinder(cylinder)) => {
+            along(segment.direction().components(), cylinder.axis())
+                .and(on_round(segment.from(), b)?)
+                .and(on_round(segment.to(), b)?)
+        }
+        (Entity::Segment(segment), Entity::Cone(cone)) => {
+            let ends = [segment.from(), segment.to()];
+            let [from, to] = ends.map(|end| minus(&end.0, &cone.apex().0));
+            // On a surface that is curved across only, what is straight runs through the apex.
+            zero_vector(&cross(&from, &to))
+                .and(on_round(segment.from(), b)?)
+                .and(on_round(segment.to(), b)?)
+        }
+        (Entity::Circle(circle), Entity::Cylinder(cylinder)) => {
+            one_axis(cylinder.axis(), &circle.axis()).and(equal(circle.radius(), cylinder.radius()))
+        }
+        (Entity::Circle(circle), Entity::Cone(cone)) => {
+            let direction = cone.axis().direction().components();
+            let offset = minus(&circle.centre().0, &cone.apex().0);
+            let height = dot(&offset, direction);
+            let limit = cone.tangent().squared().times(&height.squared());
+            let own = circle.radius().squared().times(&square(direction));
+            one_axis(cone.axis(), &circle.axis())
+                .and(equal(&own, &limit))
+                .and(Answer::positive(height.sign()))
+        }
+        (Entity::Circle(circle), Entity::Sphere(sphere)) => {
+            let away = square(&minus(&circle.centre().0, &sphere.centre().0));
+            let own = away.plus(&circle.radius().squared());
+            on_axis(sphere.centre(), &circle.axis()).and(equal(&own, &sphere.radius().squared()))
+        }
+        _ => return None,
+    })
+}
+
 /// Where a point is beside a cylinder, a cone or a sphere: inside is where the axis or the centre is.
 ///
 /// # Errors

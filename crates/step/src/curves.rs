@@ -241,10 +241,7 @@ impl Curve {
 ///
 /// # Errors
 /// As for [`vertex`] and [`Curve::read`].
-pub(crate) fn edge(
-    record: Record<'_>,
-    units: &Units,
-) -> Result<Followed, StepError> {
+pub(crate) fn edge(record: Record<'_>, units: &Units) -> Result<Followed, StepError> {
     let ends = (
         vertex(record.entity_at(1)?, units)?,
         vertex(record.entity_at(2)?, units)?,

@@ -325,7 +325,10 @@ fn oriented_edge(
 fn middle(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
     let place = points.len() / 2;
     let get = |place: usize| points.get(place).copied().unwrap_or_else(Vector3::zeros);
-    let (before, after) = (place.saturating_sub(1), (place + 1).min(points.len().saturating_sub(1)));
+    let (before, after) = (
+        place.saturating_sub(1),
+        (place + 1).min(points.len().saturating_sub(1)),
+    );
     let along = (get(after) - get(before)).try_normalize(f64::MIN_POSITIVE);
     // Of two points neither is in the middle.
     let at = match points.len() {

@@ -6,7 +6,7 @@
 //! themselves are written turned, the frame is that of the direction which most joints have, and of the one that most have at right angles to it.
 
 use super::geometry::Geometry;
-use super::standing::{Agreement, are_round};
+use super::standing::{Agreement, standing};
 use kutzbach_math::group::Pose;
 use nalgebra::{Matrix3, Vector3};
 
@@ -14,8 +14,8 @@ use nalgebra::{Matrix3, Vector3};
 const NEAREST: f64 = 1e-4;
 
 /// The geometry of joints, each with a point where it is drawn, in the frame of the assembly; in that of the ground, which stands at `ground` in
-/// the assembly, where more of the directions are along an axis of coordinates there; or in that of most joints, where more still are and the numbers were not
-/// a designer's round ones.
+/// the assembly, where more of the directions are along an axis of coordinates there; or in that of most joints, where more still are, unless some are
+/// straight already and the numbers a designer's round ones.
 pub(super) fn in_frame_of_most(
     joints: Vec<(Geometry, Vector3<f64>)>,
     ground: &Pose,
@@ -34,26 +34,32 @@ pub(super) fn in_frame_of_most(
         true => of_ground,
         false => joints,
     };
-    let points: Vec<Vector3<f64>> = best.iter().map(place).collect();
-    let better = |own: &Vec<_>| along_axes(own, same) > along_axes(&best, same);
+    let straight = along_axes(&best, same);
+    let better = |own: &Vec<_>| along_axes(own, same) > straight;
+    let designed = || straight > 0 && standing(&best, within, true).0.is_exact();
     match of_most.filter(better) {
-        Some(own) if !are_round(&points, within.length) => own,
+        Some(own) if !designed() => own,
         _ => best,
     }
 }
 
 /// The frame whose z is the direction that most joints have, and whose x is the one that most have at right angles to it; where none is, from the first
-/// joint across z towards another. Its origin is at the first joint. As the displacement into it; `None` without a direction.
+/// joint with an axis or a centre across z towards another. Its origin is there. As the displacement into it; `None` without a direction.
 fn own_frame(joints: &[(Geometry, Vector3<f64>)], same: f64) -> Option<Pose> {
     let directions = frequent(joints, same);
     let z = *directions.first()?;
-    let origin = place(joints.first()?);
+    // What has an axis or a centre first: where planes touch each other is nobody's measure.
+    let with_points = joints
+        .iter()
+        .filter(|(geometry, _)| geometry.point().is_some());
+    let points: Vec<Vector3<f64>> = with_points.chain(joints).map(place).collect();
+    let origin = *points.first()?;
     let across = |v: Vector3<f64>, least: f64| (v - z * z.dot(&v)).try_normalize(least);
     let square = directions.iter().find(|d| d.dot(&z).abs() <= same);
     let x = square
         .and_then(|d| across(*d, 0.5))
         .or_else(|| {
-            let mut others = joints.iter().map(|joint| place(joint) - origin);
+            let mut others = points.iter().map(|point| point - origin);
             others.find_map(|other| across(other, NEAREST))
         })
         .or_else(|| across(Vector3::x(), 0.5))

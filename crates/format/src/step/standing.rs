@@ -101,6 +101,11 @@ impl Grid {
         }
     }
 
+    /// Whether whole numbers of units are exact.
+    pub(super) fn is_exact(&self) -> bool {
+        self.decimals.is_none()
+    }
+
     /// The nearest position.
     fn position(&self, point: &Vector3<f64>) -> Position {
         // Points of a STEP file are within 10¹² m, so that nothing is cut off here.
@@ -136,7 +141,7 @@ impl Grid {
 }
 
 /// Whether all coordinates are round numbers of a design.
-pub(super) fn are_round(points: &[Vector3<f64>], accuracy: f64) -> bool {
+fn are_round(points: &[Vector3<f64>], accuracy: f64) -> bool {
     let coordinates = || points.iter().flat_map(|point| point.iter());
     let off = |x: &f64| {
         let units = x * DESIGN as f64;

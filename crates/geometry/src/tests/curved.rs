@@ -10,26 +10,26 @@ use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_4;
 
 impl<S: Scalar> With<S> {
-    fn circle(&self, at: Three, normal: Three, radius: i32) -> Entity<S> {
+    pub(super) fn circle(&self, at: Three, normal: Three, radius: i32) -> Entity<S> {
         Circle::new(self.at(at), self.towards(normal), S::whole(radius))
             .expect("valid by construction")
             .into()
     }
 
-    fn cylinder(&self, at: Three, along: Three, radius: i32) -> Entity<S> {
+    pub(super) fn cylinder(&self, at: Three, along: Three, radius: i32) -> Entity<S> {
         let axis = Line::new(self.at(at), self.towards(along));
         Cylinder::new(axis, S::whole(radius))
             .expect("valid by construction")
             .into()
     }
 
-    fn cone(&self, apex: Three, along: Three, tangent: i32) -> Entity<S> {
+    pub(super) fn cone(&self, apex: Three, along: Three, tangent: i32) -> Entity<S> {
         Cone::new(self.at(apex), self.towards(along), S::whole(tangent))
             .expect("valid by construction")
             .into()
     }
 
-    fn sphere(&self, centre: Three, radius: i32) -> Entity<S> {
+    pub(super) fn sphere(&self, centre: Three, radius: i32) -> Entity<S> {
         Sphere::new(self.at(centre), S::whole(radius))
             .expect("valid by construction")
             .into()
@@ -230,7 +230,7 @@ impl<S: Scalar> With<S> {
         }
         assert!(distance(&self.line([0, 0, 0], [1, 0, 0]), &ring()).is_err());
         assert!(distance(&self.line([0, 0, 0], [1, 0, 0]), &cone()).is_err());
-        assert!(distance(&self.segment([0, 0, 0], [1, 0, 0]), &pin()).is_err());
+        assert!(distance(&self.segment([0, 0, 0], [1, 0, 0]), &cone()).is_err());
     }
 
     fn moves_round_things(&self) {

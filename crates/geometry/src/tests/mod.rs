@@ -27,6 +27,7 @@ mod forms;
 mod hulls;
 mod logical;
 mod measures;
+mod meets;
 mod moved;
 
 type Three = [i32; 3];

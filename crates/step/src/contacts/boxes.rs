@@ -96,6 +96,40 @@ pub(super) fn touching(boxes: &[Option<Bounds>]) -> Vec<(usize, usize)> {
     pairs
 }
 
+/// The pairs of a box of one list and one of another that meet, in ascending order. A sweep as in [`touching`].
+pub(super) fn meeting(first: &[Bounds], second: &[Bounds]) -> Vec<(usize, usize)> {
+    let mut boxes = first.iter().chain(second);
+    let Some(whole) = boxes.next().copied() else {
+        return Vec::new();
+    };
+    let whole = boxes.fold(whole, |all, b| all.union(*b));
+    let axis = (whole.high - whole.low).imax();
+    let of = |is_first: bool, boxes: &[Bounds]| -> Vec<(bool, usize, Bounds)> {
+        let placed = boxes.iter().copied().enumerate();
+        placed.map(|(place, b)| (is_first, place, b)).collect()
+    };
+    let mut order = [of(true, first), of(false, second)].concat();
+    order.sort_by(|(.., a), (.., b)| a.low[axis].total_cmp(&b.low[axis]));
+    let (mut open_first, mut open_second) = (Vec::new(), Vec::new());
+    let mut pairs = Vec::new();
+    for (is_first, place, bounds) in order {
+        let (own, others): (&mut Vec<(usize, Bounds)>, &mut Vec<(usize, Bounds)>) = match is_first {
+            true => (&mut open_first, &mut open_second),
+            false => (&mut open_second, &mut open_first),
+        };
+        others.retain(|(_, other)| other.high[axis] >= bounds.low[axis]);
+        for (other, _) in others.iter().filter(|(_, other)| other.meets(&bounds)) {
+            pairs.push(match is_first {
+                true => (place, *other),
+                false => (*other, place),
+            });
+        }
+        own.push((place, bounds));
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -128,5 +162,17 @@ mod tests {
         }
         assert!(all.len() > 20);
         assert_eq!(touching(&boxes), all);
+
+        let (first, second) = boxes.split_at(80);
+        let some = |boxes: &[Option<Bounds>]| boxes.iter().flatten().copied().collect::<Vec<_>>();
+        let (first, second) = (some(first), some(second));
+        let mut all = Vec::new();
+        for (i, a) in first.iter().enumerate() {
+            let own = second.iter().enumerate().filter(|(_, b)| a.meets(b));
+            all.extend(own.map(|(j, _)| (i, j)));
+        }
+        assert!(all.len() > 10);
+        assert_eq!(meeting(&first, &second), all);
+        assert!(meeting(&[], &second).is_empty() && meeting(&[], &[]).is_empty());
     }
 }

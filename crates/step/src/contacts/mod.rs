@@ -7,7 +7,7 @@ mod settle;
 mod touch;
 
 use crate::shape::{Assembly, Face};
-use boxes::{Bounds, touching};
+use boxes::{Bounds, meeting, touching};
 use nalgebra::Vector3;
 use touch::touch;
 
@@ -154,6 +154,12 @@ fn around(faces: &[Placed], margin: f64) -> Option<Bounds> {
     Some(boxes.fold(first, Bounds::union).grown(margin))
 }
 
+/// The faces whose boxes meet another.
+fn near<'p>(faces: &'p [Placed], around: &Bounds) -> Vec<&'p Placed> {
+    let near = |placed: &&Placed| placed.bounds.meets(around);
+    faces.iter().filter(near).collect()
+}
+
 /// The contacts between two parts, each given by its place and its faces.
 fn between(
     first: (usize, &[Placed]),
@@ -165,31 +171,26 @@ fn between(
     let (Some(around_first), Some(around_second)) = boxes else {
         return Vec::new();
     };
-    let candidates: Vec<&Placed> = second
-        .1
-        .iter()
-        .filter(|placed| placed.bounds.meets(&around_first))
-        .collect();
+    let (ones, twos) = (near(first.1, &around_second), near(second.1, &around_first));
+    let wide: Vec<Bounds> = ones.iter().map(|one| one.bounds.grown(margin)).collect();
+    let own: Vec<Bounds> = twos.iter().map(|two| two.bounds).collect();
     let mut contacts = Vec::new();
-    for one in first.1 {
-        if !one.bounds.meets(&around_second) {
+    for (one, two) in meeting(&wide, &own) {
+        let (Some(one), Some(two)) = (ones.get(one), twos.get(two)) else {
             continue;
-        }
-        let wide = one.bounds.grown(margin);
-        for two in candidates.iter().filter(|two| two.bounds.meets(&wide)) {
-            if let Some(found) = touch(&one.face, &two.face, options) {
-                contacts.push(Contact {
-                    first: first.0,
-                    second: second.0,
-                    kind: found.kind,
-                    axis: found.axis,
-                    point: found.point,
-                    clearance: found.clearance,
-                    misfit: found.misfit,
-                    size: found.size,
-                    faces: (one.face.entity, two.face.entity),
-                });
-            }
+        };
+        if let Some(found) = touch(&one.face, &two.face, options) {
+            contacts.push(Contact {
+                first: first.0,
+                second: second.0,
+                kind: found.kind,
+                axis: found.axis,
+                point: found.point,
+                clearance: found.clearance,
+                misfit: found.misfit,
+                size: found.size,
+                faces: (one.face.entity, two.face.entity),
+            });
         }
     }
     contacts

@@ -8,9 +8,13 @@ const MOST_LEVELS: usize = 2000;
 /// The most pairs of edges that are tried for crossings.
 const MOST_CROSSINGS: usize = 4_000_000;
 
+/// From one corner to the next.
+type Edge = (Vector2<f64>, Vector2<f64>);
+
 /// Polygons in a plane; what is inside an odd number of them counts.
 pub(super) struct Flat {
-    edges: Vec<(Vector2<f64>, Vector2<f64>)>,
+    /// In ascending order of their lower ends.
+    edges: Vec<Edge>,
     low: Vector2<f64>,
     high: Vector2<f64>,
 }
@@ -53,6 +57,7 @@ impl Chart {
         let (low, high) = edges.iter().fold((first, first), |(low, high), (p, _)| {
             (low.inf(p), high.sup(p))
         });
+        edges.sort_by(|(a, b), (p, q)| a.y.min(b.y).total_cmp(&p.y.min(q.y)));
         Some(Flat { edges, low, high })
     }
 }
@@ -76,6 +81,7 @@ pub(super) fn common(a: &Flat, b: &Flat) -> Option<Common> {
     let levels = levels(a, b, low, high);
     let (mut area, mut moment) = (0.0, Vector2::zeros());
     let (mut least, mut most) = (high, low);
+    let (mut one, mut two) = (Sweep::over(a), Sweep::over(b));
     for pair in levels.windows(2) {
         let &[from, to] = pair else {
             continue;
@@ -84,7 +90,7 @@ pub(super) fn common(a: &Flat, b: &Flat) -> Option<Common> {
         if !(height > 0.0) {
             continue;
         }
-        for (left, right) in shared(&spans(a, middle), &spans(b, middle)) {
+        for (left, right) in shared(&one.spans(middle), &two.spans(middle)) {
             let piece = (right - left) * height;
             area += piece;
             least = least.inf(&Vector2::new(left, from));
@@ -104,8 +110,8 @@ fn levels(a: &Flat, b: &Flat, low: Vector2<f64>, high: Vector2<f64>) -> Vec<f64>
     let inside = |y: &f64| *y > low.y && *y < high.y;
     let corners = a.edges.iter().chain(&b.edges).map(|(p, _)| p.y);
     let mut levels: Vec<f64> = corners.filter(inside).collect();
-    let near = |flat: &Flat| -> Vec<(Vector2<f64>, Vector2<f64>)> {
-        let meets = |(p, q): &&(Vector2<f64>, Vector2<f64>)| {
+    let near = |flat: &Flat| -> Vec<Edge> {
+        let meets = |(p, q): &&Edge| {
             let (least, most) = (p.inf(q), p.sup(q));
             least.x <= high.x && most.x >= low.x && least.y <= high.y && most.y >= low.y
         };
@@ -128,7 +134,7 @@ fn levels(a: &Flat, b: &Flat, low: Vector2<f64>, high: Vector2<f64>) -> Vec<f64>
 }
 
 /// The height at which two edges cross.
-fn crossing(e: &(Vector2<f64>, Vector2<f64>), f: &(Vector2<f64>, Vector2<f64>)) -> Option<f64> {
+fn crossing(e: &Edge, f: &Edge) -> Option<f64> {
     let (d, g) = (e.1 - e.0, f.1 - f.0);
     let across = d.perp(&g);
     if across == 0.0 {
@@ -140,20 +146,42 @@ fn crossing(e: &(Vector2<f64>, Vector2<f64>), f: &(Vector2<f64>, Vector2<f64>)) 
     (on(s) && on(t)).then(|| e.0.y + d.y * s)
 }
 
-/// From where to where a level is inside.
-fn spans(flat: &Flat, level: f64) -> Vec<(f64, f64)> {
-    let cuts = flat.edges.iter().filter_map(|(p, q)| {
-        let crosses = (p.y <= level) != (q.y <= level);
-        crosses.then(|| p.x + (q.x - p.x) * (level - p.y) / (q.y - p.y))
-    });
-    let mut cuts: Vec<f64> = cuts.collect();
-    cuts.sort_by(f64::total_cmp);
-    cuts.chunks_exact(2)
-        .filter_map(|pair| match pair {
-            &[left, right] => Some((left, right)),
-            _ => None,
-        })
-        .collect()
+/// Levels one above the other, and the edges that cross them: each edge is looked at while it does, however many there are.
+struct Sweep<'f> {
+    left: &'f [Edge],
+    open: Vec<&'f Edge>,
+}
+
+impl<'f> Sweep<'f> {
+    fn over(flat: &'f Flat) -> Self {
+        Self {
+            left: &flat.edges,
+            open: Vec::new(),
+        }
+    }
+
+    /// From where to where a level is inside; levels are asked for in ascending order.
+    fn spans(&mut self, level: f64) -> Vec<(f64, f64)> {
+        while let Some((edge, left)) = self.left.split_first()
+            && edge.0.y.min(edge.1.y) <= level
+        {
+            self.open.push(edge);
+            self.left = left;
+        }
+        self.open.retain(|(p, q)| p.y.max(q.y) > level);
+        let cuts = self
+            .open
+            .iter()
+            .map(|(p, q)| p.x + (q.x - p.x) * (level - p.y) / (q.y - p.y));
+        let mut cuts: Vec<f64> = cuts.collect();
+        cuts.sort_by(f64::total_cmp);
+        cuts.chunks_exact(2)
+            .filter_map(|pair| match pair {
+                &[left, right] => Some((left, right)),
+                _ => None,
+            })
+            .collect()
+    }
 }
 
 /// What two lists of spans have in common. Both are in order.
