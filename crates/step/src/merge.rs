@@ -225,7 +225,7 @@ mod tests {
             edges: Vec::new(),
             surface: Surface::Cylinder {
                 point: Vector3::new(x, y, point_at),
-                direction: Vector3::z() * if entity % 2 == 0 { 1.0 } else { -1.0 },
+                direction: Vector3::z() * if entity.is_multiple_of(2) { 1.0 } else { -1.0 },
                 radius: 0.002,
             },
             material: Side::Outside,

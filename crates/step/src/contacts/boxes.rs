@@ -110,10 +110,11 @@ pub(super) fn meeting(first: &[Bounds], second: &[Bounds]) -> Vec<(usize, usize)
     };
     let mut order = [of(true, first), of(false, second)].concat();
     order.sort_by(|(.., a), (.., b)| a.low[axis].total_cmp(&b.low[axis]));
-    let (mut open_first, mut open_second) = (Vec::new(), Vec::new());
+    let mut open_first: Vec<(usize, Bounds)> = Vec::new();
+    let mut open_second = Vec::new();
     let mut pairs = Vec::new();
     for (is_first, place, bounds) in order {
-        let (own, others): (&mut Vec<(usize, Bounds)>, &mut Vec<(usize, Bounds)>) = match is_first {
+        let (own, others) = match is_first {
             true => (&mut open_first, &mut open_second),
             false => (&mut open_second, &mut open_first),
         };
