@@ -53,8 +53,7 @@ pub(super) fn multiple(quantity: Quantity, number: &Number, times: usize) -> Num
     if times == 1 || number.is_zero() {
         return number.clone();
     }
-    let is_few = |own: Stated| own.decimals <= Precision::EXACT_DECIMALS;
-    if number.stated().is_none_or(is_few) && number.inputs().is_empty() {
+    if is_chosen(number) {
         let text = product.decimal_text(Precision::EXACT_DECIMALS.unsigned_abs());
         let written = text.and_then(|text| Number::decimal(&text).ok());
         return written.unwrap_or(product);
@@ -62,6 +61,12 @@ pub(super) fn multiple(quantity: Quantity, number: &Number, times: usize) -> Num
     let mut inputs = Inputs::default();
     inputs.add(quantity, number, times as f64);
     product.derived_from(inputs)
+}
+
+/// Whether a number has so few decimals that somebody chose it, and it is known exactly.
+pub(super) fn is_chosen(number: &Number) -> bool {
+    let is_few = |own: Stated| own.decimals <= Precision::EXACT_DECIMALS;
+    number.stated().is_none_or(is_few) && number.inputs().is_empty()
 }
 
 /// Whether a frame is turned.

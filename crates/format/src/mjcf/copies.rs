@@ -9,7 +9,7 @@ use super::Mjcf;
 use super::pose::{Compiler, exactly};
 use crate::element::Element;
 use crate::error::Outcome;
-use crate::frames::multiple;
+use crate::frames::{is_chosen, multiple};
 use kutzbach_math::number::{Inputs, Number, Quantity};
 use kutzbach_math::space::length;
 use kutzbach_model::mechanism::Frame;
@@ -58,11 +58,11 @@ impl Step {
     fn inputs(&self, index: usize, unit: f64) -> Inputs {
         let copies = index as f64;
         let mut inputs = Inputs::default();
-        for part in &self.offset {
+        for part in self.offset.iter().filter(|part| !is_chosen(part)) {
             inputs.add(Quantity::Length, part, copies);
         }
         let reach = length(&self.offset.each_ref().map(Number::value));
-        for angle in &self.euler {
+        for angle in self.euler.iter().filter(|angle| !is_chosen(angle)) {
             let slope = 0.5 * copies * (copies - 1.0) * reach * unit;
             inputs.add(Quantity::Angle, angle, slope);
         }
