@@ -269,3 +269,18 @@ fn limits_of_cylindrical_joints_are_told() {
         "{skipped:?}"
     );
 }
+
+#[test]
+fn what_grounds_a_part_is_no_part() {
+    // FreeCAD writes joints into the group of the assembly as well.
+    let ground = property("ObjectToGround", "<Link value=\"Base\"/>") + &at("Placement", "0");
+    let document = Document::new(&["Base", "Box", "Joint", "Ground"], &to("Box.Face1"))
+        .object("Part::Box", "Box", &at("Placement", "0"))
+        .object("App::FeaturePython", "Ground", &ground);
+    assert_eq!(document.read().skipped, []);
+    let loose = Document::new(&["Base", "Box", "Rest"], &to("Box.Face1"))
+        .object("Part::Box", "Box", &at("Placement", "0"))
+        .object("Part::Box", "Rest", &at("Placement", "0"));
+    let skipped = loose.read().skipped;
+    assert_eq!(skipped[0].what, "part that no joint names");
+}

@@ -152,6 +152,8 @@ impl<'a> Reader<'a> {
                 continue;
             };
             let is_part = object.properties.contains_key("Placement")
+                // Groups of FreeCAD name joints too, and one that grounds has a placement.
+                && !object.properties.contains_key("ObjectToGround")
                 && object.kind != "Assembly::JointGroup"
                 && !object.kind.starts_with("App::Origin");
             if is_part && !self.parts.contains_key(name) {
