@@ -57,6 +57,7 @@ mod format_support;
 mod formulations;
 mod four_bars;
 mod frames;
+mod freecad_references;
 mod fuzz_format;
 mod gallery;
 mod gear_trains;

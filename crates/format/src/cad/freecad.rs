@@ -1,17 +1,17 @@
 //! FreeCAD's documents: the joints of an assembly, without its shapes.
 //!
 //! A document is a zip file whose `Document.xml` lists objects and their properties. A joint names an element of each of its parts
-//! by a path of objects, and keeps the frame on the object that the path ends in, offsets included, so no shape is needed. Where the kind of a joint
+//! by a path of objects ([`super::references`]), and keeps the frame on the object that the path ends in, offsets included, so no shape is needed. Where the kind of a joint
 //! depends on shapes (a distance between faces), or an object on the way lies in another file, the joint is told as not read.
 //!
 //! Lengths are millimetres, angles degrees, quaternions x, y, z, w. Source: FreeCAD 1.0 and 1.1, what its Assembly workbench writes.
 
+use super::objects::{Object, Objects, objects, placement};
+use super::references::follow;
 use super::{Assembly, CadJoint, End, Kind, Part, Side};
-use crate::element::{Attribute, Element};
+use crate::element::Element;
 use crate::error::{Fault, Outcome};
-use crate::frames::{one_after_another, radians_of};
-use crate::quaternion::roll_pitch_yaw;
-use crate::values::exactly;
+use crate::frames::one_after_another;
 use crate::words::quoted;
 use crate::{ReadOptions, Reading, WarningKind, xml};
 use kutzbach_math::number::Number;
@@ -20,23 +20,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The file inside a document.
 const DOCUMENT: &str = "Document.xml";
-
-/// What a joint may be, in the order that documents without a list of their own number them.
-const TYPES: [&str; 13] = [
-    "Fixed",
-    "Revolute",
-    "Cylindrical",
-    "Slider",
-    "Ball",
-    "Distance",
-    "Parallel",
-    "Perpendicular",
-    "Angle",
-    "RackPinion",
-    "Screw",
-    "Gears",
-    "Belt",
-];
 
 /// The text of `Document.xml` in a zip file; none where there is no such file.
 ///
@@ -97,137 +80,11 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<Reading, Vec<Fau
     super::mechanism(reader.assembly, text, "freecad")
 }
 
-/// An object of the document: its type, and its properties by name, each as the element that holds its value.
-struct Object<'a> {
-    element: Element<'a>,
-    kind: &'a str,
-    properties: BTreeMap<&'a str, Element<'a>>,
-}
-
 struct Reader<'a> {
-    objects: BTreeMap<&'a str, Object<'a>>,
+    objects: Objects<'a>,
     assembly: Assembly<'a>,
     /// Indices of parts by the names of their objects.
     parts: BTreeMap<&'a str, usize>,
-}
-
-/// All objects with their properties.
-fn objects(root: Element<'_>) -> Outcome<BTreeMap<&str, Object<'_>>> {
-    let section = |name: &'static str| {
-        let named = root.elements().filter(move |part| part.name() == name);
-        named.flat_map(|part| part.elements())
-    };
-    let mut kinds = BTreeMap::new();
-    for object in section("Objects").filter(|object| object.name() == "Object") {
-        let kind = object.attribute("type").map_or("", |kind| kind.value);
-        kinds.insert(object.required("name")?.value, kind);
-    }
-    let mut found = BTreeMap::new();
-    for element in section("ObjectData").filter(|object| object.name() == "Object") {
-        let name = element.required("name")?.value;
-        let properties = element
-            .elements()
-            .filter(|part| part.name() == "Properties")
-            .flat_map(|part| part.elements())
-            .filter_map(|property| Some((property.attribute("name")?.value, property)))
-            .collect();
-        let kind = kinds.get(name).copied().unwrap_or_default();
-        found.insert(
-            name,
-            Object {
-                element,
-                kind,
-                properties,
-            },
-        );
-    }
-    Ok(found)
-}
-
-impl<'a> Object<'a> {
-    /// The first element inside a property, and its `value`.
-    fn inner(&self, property: &str) -> Option<Element<'a>> {
-        self.properties.get(property)?.elements().next()
-    }
-
-    fn value(&self, property: &str) -> Option<Attribute<'a>> {
-        self.inner(property)?.attribute("value")
-    }
-
-    fn says(&self, property: &str) -> Option<bool> {
-        Some(self.value(property)?.value == "true")
-    }
-
-    /// The objects that a list of links names.
-    fn links(&self, property: &str) -> Vec<&'a str> {
-        let list = self.inner(property).map(|list| list.elements());
-        let values = list.into_iter().flatten();
-        values
-            .filter_map(|link| Some(link.attribute("value")?.value))
-            .collect()
-    }
-
-    fn length(&self, property: &str) -> Outcome<Number> {
-        self.value(property).map_or(Ok(Number::zero()), millimetres)
-    }
-
-    fn angle(&self, property: &str) -> Outcome<Number> {
-        let Some(value) = self.value(property) else {
-            return Ok(Number::zero());
-        };
-        let [degrees] = exactly(value)?;
-        Ok(radians_of(&degrees))
-    }
-
-    /// The kind of a joint; none of what is no joint.
-    fn joint_type(&self) -> Option<&'a str> {
-        let property = self.properties.get("JointType")?;
-        let number: usize = self.value("JointType")?.value.parse().ok()?;
-        let list = property
-            .elements()
-            .find(|part| part.name() == "CustomEnumList");
-        let own = list.and_then(|list| list.elements().nth(number));
-        own.and_then(|own| own.attribute("value"))
-            .map(|own| own.value)
-            .or_else(|| TYPES.get(number).copied())
-    }
-
-    fn label(&self, name: &'a str) -> &'a str {
-        self.value("Label").map_or(name, |label| label.value)
-    }
-}
-
-/// A length in metres whose digits are those that are written.
-fn millimetres(attribute: Attribute<'_>) -> Outcome<Number> {
-    let text = attribute.value.trim();
-    let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let metres = exponent
-        .parse::<i32>()
-        .ok()
-        .and_then(|exponent| exponent.checked_sub(3))
-        .and_then(|exponent| Number::decimal(&format!("{digits}e{exponent}")).ok());
-    metres
-        .filter(|metres| metres.value().abs() <= crate::values::LARGEST)
-        .ok_or_else(|| attribute.fault(format!("{} is no number", quoted(text))))
-}
-
-/// A placement: millimetres and a quaternion.
-fn placement(element: Element<'_>) -> Outcome<Frame> {
-    let mut frame = Frame::identity();
-    for (i, name) in ["Px", "Py", "Pz"].into_iter().enumerate() {
-        frame.position[i] = millimetres(element.required(name)?)?;
-    }
-    let mut quaternion = [const { None }; 4];
-    for (i, name) in ["Q0", "Q1", "Q2", "Q3"].into_iter().enumerate() {
-        let [part] = exactly(element.required(name)?)?;
-        quaternion[i] = Some(part);
-    }
-    let [Some(x), Some(y), Some(z), Some(w)] = quaternion else {
-        return Ok(frame);
-    };
-    frame.roll_pitch_yaw = roll_pitch_yaw(&[x, y, z, w])
-        .ok_or_else(|| element.fault("a quaternion of zero length turns nothing"))?;
-    Ok(frame)
 }
 
 /// What a reference of a joint ends in.
@@ -295,6 +152,8 @@ impl<'a> Reader<'a> {
                 continue;
             };
             let is_part = object.properties.contains_key("Placement")
+                // Groups of FreeCAD name joints too, and one that grounds has a placement.
+                && !object.properties.contains_key("ObjectToGround")
                 && object.kind != "Assembly::JointGroup"
                 && !object.kind.starts_with("App::Origin");
             if is_part && !self.parts.contains_key(name) {
@@ -356,6 +215,10 @@ impl<'a> Reader<'a> {
             self.bounds(object, "Angle")?,
             self.bounds(object, "Length")?,
         ];
+        if matches!(kind, Kind::Cylindrical) && limits.iter().flatten().any(Option::is_some) {
+            let what = "limit of a cylindrical joint".to_owned();
+            self.assembly.unread.text(start, what);
+        }
         self.assembly.joints.push(CadJoint {
             name: object.label(name).to_owned(),
             kind,
@@ -400,7 +263,7 @@ impl<'a> Reader<'a> {
             self.lost(joint, "the part that it holds is not in the document");
             return Ok(());
         };
-        let index = self.part(name)?;
+        let index = self.part(name, None)?;
         let object = &self.objects[joint];
         let held = self.assembly.parts[index].frame.clone();
         let side = |part: usize, frame: Frame| Side { part, frame };
@@ -415,13 +278,16 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The index of the part that an object is.
-    fn part(&mut self, name: &'a str) -> Outcome<usize> {
+    /// The index of the part that an object is, which may be an element of an array.
+    fn part(&mut self, name: &'a str, array: Option<&'a str>) -> Outcome<usize> {
         if let Some(index) = self.parts.get(name) {
             return Ok(*index);
         }
         let object = &self.objects[name];
-        let frame = self.placement_of(object)?;
+        let mut frame = object.placement()?;
+        if let Some(array) = array {
+            frame = one_after_another(&self.objects[array].placement()?, &frame);
+        }
         let index = self.assembly.parts.len();
         self.assembly.parts.push(Part {
             name: object.label(name).to_owned(),
@@ -432,97 +298,26 @@ impl<'a> Reader<'a> {
         Ok(index)
     }
 
-    fn placement_of(&self, object: &Object<'a>) -> Outcome<Frame> {
-        let placed = object
-            .inner("Placement")
-            .or_else(|| object.inner("LinkPlacement"));
-        placed.map_or(Ok(Frame::identity()), placement)
-    }
-
-    /// What a reference of a joint says: the path of objects, without the assembly and groups before the part.
-    fn path(&self, joint: &Object<'a>, number: &str) -> (Vec<&'a str>, Vec<&'a str>) {
-        let mut words: Vec<&'a str> = Vec::new();
-        if let Some(link) = joint.inner(&format!("Reference{number}")) {
-            words.extend(link.attribute("name").map(|name| name.value));
-            let subs = link.elements().filter_map(|sub| sub.attribute("value"));
-            let sub = link.attribute("sub").or_else(|| subs.into_iter().next());
-            words.extend(sub.into_iter().flat_map(|sub| sub.value.split('.')));
-        } else {
-            // As development versions before 1.0 had it: the part, the object and the element each by themselves.
-            let part = joint.inner(&format!("Part{number}"));
-            words.extend(
-                part.and_then(|part| part.attribute("value"))
-                    .map(|p| p.value),
-            );
-            let object = joint.value(&format!("Object{number}"));
-            let object = object
-                .into_iter()
-                .flat_map(|object| object.value.split('.'));
-            words.extend(object);
-            let element = joint.value(&format!("Element{number}"));
-            words.extend(element.map(|element| element.value));
-            words.dedup();
-        }
-        let known = words
-            .iter()
-            .take_while(|word| self.objects.contains_key(*word))
-            .count();
-        let rest = words.split_off(known);
-        let holds = |word: &&str| {
-            let kind = self.objects[*word].kind;
-            kind == "Assembly::AssemblyObject" || kind == "App::DocumentObjectGroup"
-        };
-        let before = words.iter().take_while(|word| holds(word)).count();
-        (words.split_off(before), rest)
-    }
-
     fn side(&mut self, joint: &'a str, number: &str, assembly: &'a str) -> Outcome<Found> {
         let object = &self.objects[joint];
-        let (path, rest) = self.path(object, number);
         let frame = match object.inner(&format!("Placement{number}")) {
             Some(placed) => placement(placed)?,
             None => return Ok(Found::Lost("it has no frame")),
         };
-        let element = match rest.last() {
-            Some(last) if last.starts_with("Vertex") => "Vertex",
-            _ => "",
+        let reference = match follow(&self.objects, object, number, assembly) {
+            Ok(reference) => reference,
+            Err(why) => return Ok(Found::Lost(why)),
         };
-        let Some((&part, inner)) = path.split_first() else {
-            // The assembly itself, its origin for instance.
-            let on_assembly = self.parts.get(assembly).copied().unwrap_or_default();
-            let side = Side {
-                part: on_assembly,
-                frame,
-            };
-            return Ok(Found::Side(side, element));
-        };
-        if self.objects[part].kind == "Assembly::AssemblyLink" {
-            return Ok(Found::Lost(
-                "one of its parts lies in an assembly of another file",
-            ));
-        }
-        let mut chain: Vec<Frame> = Vec::new();
-        let mut ends = self.objects[part].kind == "PartDesign::Body";
-        for name in inner {
-            if ends {
-                break;
-            }
-            let object = &self.objects[*name];
-            chain.push(self.placement_of(object)?);
-            ends = object.kind == "PartDesign::Body";
-        }
-        if !ends && rest.len() > 1 {
-            return Ok(Found::Lost(
-                "an object that it refers to lies in another file",
-            ));
-        }
-        let part = self.part(part)?;
-        chain.push(frame);
         let mut whole = Frame::identity();
-        for frame in &chain {
-            whole = one_after_another(&whole, frame);
+        for name in &reference.inner {
+            whole = one_after_another(&whole, &self.objects[*name].placement()?);
         }
-        Ok(Found::Side(Side { part, frame: whole }, element))
+        let part = match reference.part {
+            Some(part) => self.part(part, reference.array)?,
+            None => 0,
+        };
+        let frame = one_after_another(&whole, &frame);
+        Ok(Found::Side(Side { part, frame }, reference.element))
     }
 
     /// What a joint says; none where that depends on shapes, or is not known.

@@ -20,6 +20,8 @@ mod blocks;
 mod couplings;
 mod freecad;
 mod joints;
+mod objects;
+mod references;
 
 pub(super) use asmt::{is_asmt, read as read_asmt};
 pub(super) use freecad::{document, is_document, read as read_freecad};
