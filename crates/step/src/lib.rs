@@ -37,7 +37,10 @@ pub use contacts::{
     Contact, ContactKind, ContactOptions, Joint, JointError, PairOfParts, contacts, joint_of,
 };
 pub use error::{Problem, StepError};
-pub use shape::{Assembly, EdgeCurve, Face, FaceEdge, KinematicPair, Note, NoteKind, PairMotion, Part, Side, Surface};
+pub use shape::{
+    Assembly, EdgeCurve, Face, FaceEdge, KinematicPair, Note, NoteKind, PairMotion, Part, Side,
+    Surface,
+};
 
 /// Reads a STEP file.
 ///
