@@ -188,3 +188,40 @@ fn a_nearest_mechanism_with_joints_that_nearly_coincide_is_decided() {
     );
     assert_eq!(finite(&text), Some(1));
 }
+
+/// A four-bar whose plane is tilted, as `convert` writes it from a file of five decimals: poses as they were read, and others in full. Its last hinge is
+/// askew by 0.01 degrees, fifteen times what five decimals leave open.
+#[test]
+fn a_hinge_askew_in_full_beside_rounded_poses_holds_fast() {
+    let body = |name: &str, place: &str, joint: &str, inside: &str| {
+        format!(
+            r#"<body name="{name}" {place}><joint name="{joint}" axis="0 0 1"/><inertial pos="0 0 0" mass="0.1" diaginertia="0.001 0.001 0.001"/>{inside}</body>"#
+        )
+    };
+    let coupler = body(
+        "coupler",
+        r#"pos="0.11401770824708224 -2.2205462196778214e-6 1.0735016092722205e-6" euler="-5.550263525871968e-6 -4.339086747420522e-6 -0.9827943266961526""#,
+        "b",
+        "",
+    );
+    let crank = body(
+        "crank",
+        r#"pos="0.12300 0.45600 0.78900" euler="-0.28562 -0.47090 2.58129""#,
+        "a",
+        &coupler,
+    );
+    let rocker = body(
+        "rocker",
+        r#"pos="0.24631 0.71739 0.90110" euler="-0.46635 -0.29336 3.05622""#,
+        "d",
+        "",
+    );
+    let text = format!(
+        r#"<mujoco><compiler angle="radian" eulerseq="XYZ"/><worldbody>{crank}{rocker}</worldbody><equality>
+        <connect body1="coupler" body2="rocker" anchor="0.2529752998698849 -1.9270659665227008e-7 -4.0151249403042044e-7"/>
+        <connect body1="coupler" body2="rocker" anchor="0.25297727447169915 1.6175994870282862e-5 0.09999959857333877"/></equality></mujoco>"#
+    );
+    let reading = kutzbach::format::read(&text, "askew.xml", &[]).unwrap();
+    let analysis = analyse(&reading.mechanism, &AnalysisOptions::default()).unwrap();
+    assert_ne!(analysis.mobility.finite(), Some(1));
+}

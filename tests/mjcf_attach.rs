@@ -37,6 +37,29 @@ fn joint<'m>(mechanism: &'m Mechanism, name: &str) -> &'m Joint {
     mechanism.joint(mechanism.joint_named(name).unwrap())
 }
 
+/// An equality between what is brought and what is not holds nothing, and is told, whatever it says of being active.
+#[test]
+fn what_is_half_brought_is_told() {
+    for (index, active) in ["", r#"active="true""#, r#"active="false""#]
+        .iter()
+        .enumerate()
+    {
+        let folder = empty_folder(&format!("mjcf_attach_half_{index}"));
+        let text = format!(
+            r#"<mujoco><worldbody><body name="up"><joint axis="0 1 0"/><geom size="0.1"/></body>
+<body name="other" pos="0 0 1"><joint axis="0 1 0"/><geom size="0.1"/></body></worldbody>
+<equality><connect body1="up" body2="other" anchor="1 0 0" {active}/></equality></mujoco>"#
+        );
+        write(&folder, "arm.xml", &text);
+        let attach = r#"<attach model="arm" body="up" prefix="a_"/>"#;
+        let reading = base(&folder, attach, "").unwrap();
+        let mut told = reading.skipped.iter();
+        let told = told.any(|skip| skip.what.contains("<connect> that is not active"));
+        assert!(told, "{active}: {:?}", reading.skipped);
+        assert!(reading.mechanism.couplings().is_empty());
+    }
+}
+
 #[test]
 fn a_body_of_another_file_is_brought_with_what_couples_it() {
     let folder = empty_folder("mjcf_attach");

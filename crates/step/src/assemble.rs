@@ -45,6 +45,7 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         assembly: Assembly {
             length_unit: 0.0,
             accuracy: 0.0,
+            printed: 0.0,
             tilt: WORST * uncertainty(file, "DIRECTION"),
             schemas: file.schemas().to_vec(),
             parts: Vec::new(),
@@ -76,6 +77,7 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         return Err(StepError::at(1, None, problem));
     }
     builder.assembly.accuracy += levered(&builder.assembly);
+    builder.assembly.printed = builder.digits * builder.assembly.length_unit;
     let said = mechanisms(file, &builder.occurred, &builder.shown)?;
     builder.assembly.pairs = said.pairs;
     builder.assembly.base = said.base;

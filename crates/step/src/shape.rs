@@ -12,6 +12,9 @@ pub struct Assembly {
     /// How far points of parts may be from where they should be in the assembly (m): as its contexts state, the largest of all,
     /// or more where the digits of its coordinates and directions leave more open. Zero where none is stated and the digits are those of doubles.
     pub accuracy: f64,
+    /// How far coordinates of points may be off by the digits with which they are printed (m), as part of the accuracy. Zero where these are those of
+    /// doubles, or a designer's own.
+    pub printed: f64,
     /// How far directions may be from where they should be (rad), by the digits with which they are printed. Zero where these are those of doubles.
     pub tilt: f64,
     /// The schemas that the header names.

@@ -307,15 +307,17 @@ impl<'m> Brought<'m> {
                 let all = references.iter().all(|own| is_brought(&own));
                 let mut brought = references.iter().filter(is_brought);
                 let any = brought.any(|(sort, name)| !is_world(*sort, name));
+                if !all {
+                    if name == "equality" && any {
+                        // It holds something that is not brought, and nothing then; as what is not active it is told.
+                        let text = format!("<{} active=\"false\"/>", part.name());
+                        writing.insert(self.model, &text, part.start(), main);
+                    }
+                    continue;
+                }
                 let mut more = Vec::new();
                 if part.attribute("class").is_none() {
                     more.push((part.range().end, format!(" class=\"{class}\"")));
-                }
-                if !all && name == "equality" && any && part.attribute("active").is_none() {
-                    // It holds something that is not brought, and nothing then; as what is not active it is told.
-                    more.push((part.range().end, " active=\"false\"".to_owned()));
-                } else if !all {
-                    continue;
                 }
                 if let Some(own) = part.attribute("name").filter(|_| name == "tendon") {
                     known.insert((Sort::Tendon, own.value));

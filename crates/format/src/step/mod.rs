@@ -76,12 +76,23 @@ pub(super) fn read(
     let name = stem.map_or_else(|| file.to_owned(), |s| s.to_string_lossy().into_owned());
     // Whoever states how well numbers are known speaks of decimals, not of exact ones.
     let may_be_exact = options.precision.is_none() && !options.literal;
+    let Assembly {
+        accuracy,
+        printed,
+        tilt,
+        ..
+    } = found.assembly;
+    // Two coordinates differ by what both are off.
+    let within = Agreement {
+        printed,
+        ..Agreement::of(accuracy.max(2.0 * printed), tilt)
+    };
     let built = build::build(
         &name,
         &found.assembly,
         found.ground,
         &found.pairs,
-        Agreement::of(found.assembly.accuracy, found.assembly.tilt),
+        within,
         may_be_exact,
     )
     .map_err(|error| {

@@ -17,10 +17,11 @@
 //! Positions are whole numbers of units of the last decimal, and positions of joints in links are differences of such: loops close exactly,
 //! as the file draws them.
 //!
-//! The decimals say how well the positions are known: seven (0.1 µm), fewer where the file states that it is coarser. Files state finer
+//! The decimals say how well the positions are known: seven (0.1 µm), fewer where the file states or prints them more coarsely. Files state finer
 //! accuracies too, but they are those of a kernel's tolerance, and places of parts have passed other programs. Where
 //! *every* coordinate is a whole number of [`DESIGN`] within [`ROUND`], the design is one of round numbers: of computed coordinates one in
-//! 5000 is so near by chance. So it is where they are within the accuracy of the file, and so many that chance would do it once in
+//! 5000 is so near by chance, and of numbers that are printed in few decimals so many that there have to be more of them ([`SELDOM`]); in hundredths of a millimetre all
+//! are. So it is where they are within the accuracy of the file, and so many that chance would do it once in
 //! [`CHANCE`] files. These numbers are exact then.
 
 use super::geometry::Geometry;
@@ -49,7 +50,10 @@ const DESIGN: i64 = 100_000;
 /// How near a coordinate is to a round number (m) if it is one: the digits of doubles after a few products.
 const ROUND: f64 = 1e-9;
 
-/// How often (one in so many files) chance may make all coordinates round.
+/// How often (one in so many files) chance may print all coordinates round.
+const SELDOM: f64 = 4e3;
+
+/// How often (one in so many files) chance may make all coordinates as good as round.
 const CHANCE: f64 = 1e6;
 
 /// Decimals of directions: half of the last is below what counts as the same.
@@ -82,15 +86,17 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The grid for points known to `accuracy` (m), of which `points` have to be on it.
-    fn new(points: &[Vector3<f64>], accuracy: f64, may_be_exact: bool) -> Self {
-        if may_be_exact && are_round(points, accuracy) {
+    /// The grid for points that agree so, of which `points` have to be on it.
+    fn new(points: &[Vector3<f64>], within: Agreement, may_be_exact: bool) -> Self {
+        if may_be_exact && are_round(points, within) {
             return Self {
                 per_metre: DESIGN,
                 decimals: None,
             };
         }
-        let (decimals, per_metre) = match accuracy {
+        let (decimals, per_metre) = match within.length.max(within.printed) {
+            a if a > 3e-4 => (3, 1000),
+            a if a > 3e-5 => (4, 10_000),
             a if a > 3e-6 => (5, 100_000),
             a if a > 3e-7 => (6, 1_000_000),
             _ => (7, 10_000_000),
@@ -141,24 +147,24 @@ impl Grid {
 }
 
 /// Whether all coordinates are round numbers of a design.
-fn are_round(points: &[Vector3<f64>], accuracy: f64) -> bool {
+fn are_round(points: &[Vector3<f64>], within: Agreement) -> bool {
     let coordinates = || points.iter().flat_map(|point| point.iter());
     let off = |x: &f64| {
         let units = x * DESIGN as f64;
         (units - units.round()).abs() / DESIGN as f64
     };
     let worst = coordinates().map(off).fold(0.0, f64::max);
-    if worst <= ROUND {
-        return true;
-    }
     // Numbers that agree, or are each other's negatives, are round together: they count once.
     let different: BTreeSet<u64> = coordinates()
         .map(|x| (x * DESIGN as f64).round().abs() as u64)
         .filter(|units| *units > 0)
         .collect();
-    let chance = 2.0 * accuracy * DESIGN as f64;
     let count = different.len().min(1000) as i32;
-    worst <= accuracy && chance.powi(count) * CHANCE <= 1.0
+    let seldom = |off: f64, files: f64| (2.0 * off * DESIGN as f64).powi(count) * files <= 1.0;
+    if worst <= ROUND {
+        return count == 0 || seldom(within.printed.max(ROUND), SELDOM);
+    }
+    worst <= within.length && seldom(within.length, CHANCE)
 }
 
 /// Within what positions and directions of a file are the same.
@@ -168,6 +174,8 @@ pub(super) struct Agreement {
     pub length: f64,
     /// Of directions (rad).
     pub angle: f64,
+    /// How far coordinates may be off by the digits that they are printed with (m), which may be more than `length`.
+    pub printed: f64,
 }
 
 impl Agreement {
@@ -177,6 +185,7 @@ impl Agreement {
         Self {
             length: accuracy.clamp(FINEST, COARSEST),
             angle: (4.0 * tilt).clamp(SAME_DIRECTION, MOST_TILTED),
+            printed: 0.0,
         }
     }
 }
@@ -198,7 +207,7 @@ pub(super) fn standing(
     let of_lines = points.len();
     points.extend(&agreed.centres);
     agree_by_coordinates(&mut points, within.length);
-    let grid = Grid::new(&points, within.length, may_be_exact);
+    let grid = Grid::new(&points, within, may_be_exact);
     let stand = |(directions, place): &([Option<usize>; 2], Place)| {
         let point = match place {
             Place::Line(line) => points.get(*line).copied(),

@@ -5,6 +5,10 @@ use super::error::MatrixError;
 use super::sparse::SparseMatrix;
 use faer::linalg::solvers::SolveLstsq;
 
+/// What is left of a column beside those before it has to be more than half so many roundings of each of its entries: less is none for the
+/// decomposition (faer 0.24), which leaves such a column out, and then has no solution at all.
+const DISTINCT: f64 = 32.0;
+
 /// Solves `min |A x − b|² + damping |x|²`.
 #[derive(Clone, Copy, Debug)]
 pub struct LeastSquares;
@@ -13,7 +17,8 @@ impl LeastSquares {
     /// The minimiser `x`, one entry per column; columns marked `false` in `movable` stay zero.
     ///
     /// The damping is raised to at least 1e-20, so that the solution is unique; with columns of unit length this changes a
-    /// step by less than 1e-10 of itself along directions that matter, and keeps it short along null directions.
+    /// step by less than 1e-10 of itself along directions that matter, and keeps it short along null directions. Columns that are so long that it
+    /// is no more than their rounding are damped by that.
     /// Dense Householder QR of `[A; √damping I]` up to 300 columns; conjugate gradients on the normal equations in
     /// product form (CGLS, Björck 1996, section 7.4) beyond, to a relative accuracy of 1e-12 or as far as it gets in twice
     /// as many iterations as columns, at most 5000.
@@ -67,6 +72,7 @@ fn dense(matrix: &SparseMatrix<f64>, right: &[f64], damping: f64, kept: &[usize]
         position[column] = index;
     }
     let rows = matrix.rows();
+    let distinct = DISTINCT * (rows + kept.len()) as f64 * f64::EPSILON;
     let mut augmented = faer::Mat::<f64>::zeros(rows + kept.len(), kept.len());
     for (row, column, value) in matrix.triplets() {
         if position[column] != usize::MAX {
@@ -74,7 +80,8 @@ fn dense(matrix: &SparseMatrix<f64>, right: &[f64], damping: f64, kept: &[usize]
         }
     }
     for index in 0..kept.len() {
-        augmented[(rows + index, index)] = damping.sqrt();
+        let size = augmented.col(index).norm_l2();
+        augmented[(rows + index, index)] = damping.sqrt().max(distinct * size);
     }
     let target = faer::Mat::<f64>::from_fn(rows + kept.len(), 1, |i, _| {
         right.get(i).copied().unwrap_or(0.0)
@@ -156,6 +163,18 @@ mod tests {
         let iterated = cgls(&matrix, &right, 1e-12, None).unwrap();
         for (a, b) in direct.iter().zip(&iterated) {
             assert!((a - b).abs() < 1e-8, "{a} {b}");
+        }
+    }
+
+    /// Of loops that are short beside what they carry, columns are long: two that are the same have the shortest solution still.
+    #[test]
+    fn long_columns_that_repeat_one_another_have_a_solution() {
+        for size in [1.0, 1e5, 1e9] {
+            let matrix =
+                SparseMatrix::from_triplets(1, 2, 0.0, [(0, 0, size), (0, 1, size)]).unwrap();
+            let x = LeastSquares::damped(&matrix, &[size], 0.0, None).unwrap();
+            assert!((x[0] + x[1] - 1.0).abs() < 1e-9, "{size:e}: {x:?}");
+            assert!((x[0] - x[1]).abs() < 0.5, "{size:e}: {x:?}");
         }
     }
 

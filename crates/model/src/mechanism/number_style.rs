@@ -142,6 +142,11 @@ impl Group {
         self.designed <= EXACT_DECIMALS
     }
 
+    /// Whether its digits are those of printed doubles, and not mostly shorter ones of another hand.
+    pub fn is_of_doubles(&self) -> bool {
+        self.doubles && self.lost == i32::MAX
+    }
+
     /// Whether literals that count as exact may all be rounded to the decimals of the longest: no more of them are shorter than zeros
     /// at the end make by chance.
     pub fn may_be_rounded(&self) -> bool {

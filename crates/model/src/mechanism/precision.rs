@@ -88,7 +88,7 @@ impl Precision {
     #[must_use]
     pub fn is_of_doubles(&self) -> bool {
         let mut rounded = self.groups.iter().filter(|group| !group.is_exact());
-        let doubles = rounded.clone().next().is_some() && rounded.all(|group| group.doubles);
+        let doubles = rounded.clone().next().is_some() && rounded.all(Group::is_of_doubles);
         doubles && self.by_hand.is_none()
     }
 

@@ -381,6 +381,20 @@ fn expressions_are_exact() {
     assert_eq!(rounded.uncertainty(0, &expression("0.866025")), 0.0);
 }
 
+/// Numbers that were rounded are as uncertain as their digits say, also where a program has printed some of its own beside them in full.
+#[test]
+fn a_few_doubles_do_not_make_rounded_numbers_doubles() {
+    let rounded = [
+        "0.12345", "0.45612", "0.78934", "0.24631", "0.71739", "0.90113",
+    ];
+    let of_both = |doubles: &[&str]| of(&[&rounded[..], doubles].concat());
+    let mixed = of_both(&["0.11401770824708224"]);
+    assert!(!mixed.is_of_doubles());
+    assert!((mixed.uncertainty(0, &number("0.45612")) / 5e-6 - 1.0).abs() < 1e-9);
+    let doubles = ["0.11401770824708224", "0.25297529986988493"];
+    assert!(of(&doubles).is_of_doubles());
+}
+
 #[test]
 fn every_number_of_the_geometry_is_read() {
     let frame = |position: &str, angle: &str| Frame {
