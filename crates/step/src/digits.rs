@@ -232,7 +232,7 @@ mod tests {
         assert_eq!(of_texts(hundredths.into_iter().take(12).collect()), 0.0);
         let four = turned(&|x| format!("{x:.3e}"));
         assert!((of_texts(four) / 0.5e-2 - 1.0).abs() < 1e-9);
-        let typed = |i: u32| f64::from(i) * if i % 3 == 0 { 0.5 } else { 1.25 };
+        let typed = |i: u32| f64::from(i) * if i.is_multiple_of(3) { 0.5 } else { 1.25 };
         assert_eq!(
             of_texts((1..60).map(|i| typed(i).to_string()).collect()),
             0.0
