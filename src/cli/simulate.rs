@@ -15,7 +15,7 @@ use clap::Args;
 use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
 use kutzbach::simulate::{
-    Effects, LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table,
+    LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table,
     run_scene_estimated, scene_drives,
 };
 use log::Log;
