@@ -74,6 +74,9 @@ fn places_of_constraints_are_worked_out_before_their_rows() {
     let reading = read(FOUR_BAR, "four_bar.urdf", &[]).unwrap();
     let text = to_pinocchio(&reading.mechanism).unwrap().text;
     let at = |part: &str| text.find(part).unwrap();
-    let (places, rows) = (at("made.calc(model, data, there)"), at("getConstraintJacobian("));
+    let (places, rows) = (
+        at("made.calc(model, data, there)"),
+        at("getConstraintJacobian("),
+    );
     assert!(at("there = made.createData()") < places && places < rows);
 }
