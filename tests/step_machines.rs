@@ -385,6 +385,24 @@ fn points_in_hundredths_of_a_millimetre_are_not_a_design_of_round_numbers() {
     assert_ne!(found.mobility.verdict, Verdict::Rigid);
 }
 
+/// A plate whose two tight bores are drawn beside their pins.
+#[test]
+fn faces_that_are_off_one_another_are_told() {
+    let path = folder("tests/step/machines").join("sarrus_tight.step");
+    let text = std::fs::read_to_string(path).unwrap();
+    let place = "#25=CARTESIAN_POINT('',(54.,0.,26.));";
+    assert!(text.contains(place));
+    for (x, told) in [("54.", 0), ("54.002", 0), ("54.02", 2)] {
+        let moved = place.replace("54.", x);
+        let text = text.replace(place, &moved);
+        let reading = read_with(&text, "moved.step", &ReadOptions::default()).unwrap();
+        let off = "are off one another by 20 µm more";
+        let all = reading.warnings.iter();
+        let of_misfits = all.filter(|warning| warning.message.contains(off));
+        assert_eq!(of_misfits.count(), told, "{x}: {:?}", reading.warnings);
+    }
+}
+
 mod corpus {
     use super::*;
 

@@ -42,7 +42,7 @@ const MOST_TILTED: f64 = 1e-4;
 pub(super) const FINEST: f64 = 1e-7;
 
 /// Lengths (m) that differ by more are never made the same, whatever a file states: what a shaft with the closest fit has as play.
-const COARSEST: f64 = 1e-5;
+pub(super) const COARSEST: f64 = 1e-5;
 
 /// The unit of round numbers (per metre): hundredths of a millimetre.
 const DESIGN: i64 = 100_000;

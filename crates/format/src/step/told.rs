@@ -2,7 +2,7 @@
 
 use super::ground::Why;
 use super::pairs::{Judged, Reason};
-use super::standing::FINEST;
+use super::standing::{COARSEST, FINEST};
 use crate::words::{listed, quoted};
 use crate::{Warning, WarningKind};
 use kutzbach_model::mechanism::JointKind;
@@ -103,7 +103,17 @@ impl Told {
                 Reason::Declared if pair.taken.is_none() && !pair.contacts.is_empty() => {
                     otherwise.push(both());
                 }
-                Reason::Contacts | Reason::Correction | Reason::Declared => {}
+                Reason::Contacts => {
+                    if let Some(misfit) = beyond_room(pair, assembly.accuracy) {
+                        let message = format!(
+                            "round faces of {} are off one another by {:.0} µm more than the room between them: taken as on one axis or centre, and as drawn they would bind. {CORRECT}",
+                            both(),
+                            1e6 * misfit
+                        );
+                        self.add(1, WarningKind::Guessed, message);
+                    }
+                }
+                Reason::Correction | Reason::Declared => {}
             }
         }
         if !otherwise.is_empty() {
@@ -162,6 +172,18 @@ fn pressed(pair: &Judged) -> bool {
     let thick =
         |kind: ContactKind, clearance: f64| kind == ContactKind::Cylindrical && clearance < -FINEST;
     moves && pair.contacts.iter().any(|c| thick(c.kind, c.clearance))
+}
+
+/// By how much (m) round faces of a pair are off one another beyond the room between them; `None` within what the closest fit has as play, and what
+/// the file leaves open of two points and of the two frames that they are in.
+fn beyond_room(pair: &Judged, accuracy: f64) -> Option<f64> {
+    let round = pair
+        .contacts
+        .iter()
+        .filter(|contact| contact.kind != ContactKind::Planar);
+    let beyond = round.map(|contact| contact.misfit - contact.clearance.max(0.0));
+    let most = beyond.fold(0.0, f64::max);
+    (most > COARSEST.max(4.0 * accuracy)).then_some(most)
 }
 
 fn name(assembly: &Assembly, place: usize) -> &str {
