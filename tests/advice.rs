@@ -94,10 +94,7 @@ fn overconstrained_classics_get_advice() {
 fn advice_holds_at_another_pose() {
     let turned = |name: &str, joint: &str, value: &str| {
         let mut draft = Draft::of(&zoo_mechanism(name));
-        let values = vec![Number::decimal(value).unwrap()];
-        draft
-            .poses
-            .push(("turned".to_owned(), vec![(joint.to_owned(), values)]));
+        draft.hold_at("turned", joint, Number::decimal(value).unwrap());
         (name.to_owned(), draft.build())
     };
     let mut wrong = Vec::new();

@@ -126,6 +126,9 @@ fn each_kind_of_joint_leaves_its_freedoms() {
             5,
         ),
         ("AngleJoint", STRAIGHT, &[("theIzJz", "0.0")], "1 2 3", 4),
+        // Both sides of what FreeCAD takes for parallel axes.
+        ("AngleJoint", STRAIGHT, &[("theIzJz", "9e-8")], "1 2 3", 4),
+        ("AngleJoint", STRAIGHT, &[("theIzJz", "1.1e-7")], "1 2 3", 5),
         ("RevRevJoint", STRAIGHT, &rod, "1.2 1.6 0", 2),
         ("RevCylJoint", STRAIGHT, &rod, "1.2 1.6 3", 3),
         ("CylSphJoint", STRAIGHT, &rod, "1.2 1.6 3", 5),
@@ -196,6 +199,32 @@ fn gears_racks_and_screws_tie_what_bears_their_parts() {
     // The rack is drawn 0.3 m along its slide: no pose is lost by the coupling.
     let offset = rack.read().unwrap().mechanism.couplings()[0].offset.value();
     assert!((offset + 0.3).abs() < 1e-12, "{offset}");
+    // Drawn at zero two kilometres away, the slide is off by what rounding leaves, 2e-13: the coupling has no offset.
+    let far = Model::new(&[("s", "2000.4 0 0", along_x), ("w", "0 1 0", STRAIGHT)])
+        .part(
+            "rack",
+            "2000.1 0 0",
+            &[("m", "0.3 0 0", along_x), ("c", "0 0 0", STRAIGHT)],
+        )
+        .part("wheel", "0 1 0", &[("m", "0 0 0", STRAIGHT)])
+        .joint("TranslationalJoint", "slide", ["s", "rack/m"], &[])
+        .joint("RevoluteJoint", "turn", ["w", "wheel/m"], &[])
+        .joint(
+            "RackPinionJoint",
+            "tied",
+            ["rack/c", "wheel/m"],
+            &[("pitchRadius", "0.5")],
+        );
+    assert!(
+        far.read().unwrap().mechanism.couplings()[0]
+            .offset
+            .is_zero()
+    );
+    // What is drawn a picometre off is no rounding of a metre.
+    let near = slide_and_wheel("RackPinionJoint", &[("pitchRadius", "0.5")], along_x);
+    let near = near.text().replace("0.3 0 0", "0.000000000001 0 0");
+    let near = read(&near, "model.asmt", &[]).unwrap().mechanism;
+    assert!((near.couplings()[0].offset.value() + 1e-12).abs() < 1e-14);
     // On one axis, a screw and a cylindrical joint are a screw joint.
     let nut = one_joint("CylindricalJoint", STRAIGHT, &[], "0 0 0.2").joint(
         "ScrewJoint",

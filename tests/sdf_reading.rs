@@ -126,6 +126,23 @@ fn names_that_hold_colons_are_found_as_they_are_written() {
     assert_eq!(height(&reading, "arm::hand"), 1.0);
 }
 
+/// libsdformat refuses it (`JOINT_CHILD_LINK_INVALID`); the joint is the same.
+#[test]
+fn a_joint_with_the_world_below_it_is_told() {
+    for (kind, finite) in [("revolute", 1), ("fixed", 0)] {
+        for (parent, child, told) in [("a", "world", 1), ("world", "a", 0)] {
+            let reading = model(&format!(
+                "<link name='a'/><joint name='k' type='{kind}'><parent>{parent}</parent><child>{child}</child><axis><xyz>0 0 1</xyz></axis></joint>"
+            ));
+            let of_child = reading.warnings.iter();
+            let of_child = of_child.filter(|one| one.message.contains("the world is its child"));
+            assert_eq!(of_child.count(), told, "{:?}", reading.warnings);
+            let freedom: usize = reading.mechanism.joints().iter().map(|j| j.freedom()).sum();
+            assert_eq!(freedom, finite);
+        }
+    }
+}
+
 #[test]
 #[rustfmt::skip]
 fn contradictions_are_told_with_their_place() {

@@ -84,6 +84,14 @@ fn pairs_stand_where_their_frames_do() {
     let reading = read_text(&moved, Corrections::default());
     assert!(joints(&reading).is_empty());
     assert_eq!(told(&reading, WarningKind::MayJoin, "do not meet"), 1);
+    // Nor is one by more than what six digits leave; by less it is the joint that the file says.
+    for (beside, count) in [("4.009", 1), ("4.011", 0)] {
+        let moved = text("revolute").replace("(-16.,4.,-1.)", &format!("(-16.,{beside},-1.)"));
+        let reading = read_text(&moved, Corrections::default());
+        assert_eq!(joints(&reading).len(), count, "{beside}");
+        let unread = told(&reading, WarningKind::MayJoin, "do not meet");
+        assert_eq!(unread, 1 - count, "{beside}");
+    }
     // Along its axis a hinge does not slide, and a cylindrical joint does.
     for (name, count) in [("revolute", 0), ("cylindrical", 1)] {
         let moved = text(name).replace("(-16.,4.,-1.)", "(-16.,4.,1.)");

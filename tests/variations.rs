@@ -277,9 +277,8 @@ mod corpus {
             };
             // A joint may stand at the end of its range: then it goes the other way only.
             let there = ["0.0512345678901", "-0.0512345678901"].map(|value| {
-                let pose = (driver.name.clone(), vec![Number::decimal(value).unwrap()]);
                 let mut draft = base.draft.clone();
-                draft.poses.push(("moved".to_owned(), vec![pose]));
+                draft.hold_at("moved", &driver.name, Number::decimal(value).unwrap());
                 let options = AnalysisOptions {
                     configuration: Some("moved".to_owned()),
                     ..AnalysisOptions::default()

@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 use support::rewrite::Draft;
 use support::{
-    analysis, assert_none, combine, drawn, folder, in_parallel, mechanism_files, whole_numbers, zoo,
+    analysis, assert_none, combine, drawn, folder, in_parallel, mechanism_files, whole_numbers,
+    zoo, zoo_mechanism,
 };
 
 /// Every reference mechanism, the relatives of these, and the poses that look like others.
@@ -206,6 +207,22 @@ fn whole_numbers_written_otherwise_contradict_nothing() {
     assert!(compare_whole_numbers(0..30) <= 1);
     // Coefficients below what three decimals state left a curve of a surface of two dimensions.
     compare_whole_numbers(4072..4073);
+}
+
+/// Where joints only begin belongs to a pose as the values do that joints keep.
+#[test]
+fn starting_values_are_kept() {
+    let mut draft = Draft::of(&zoo_mechanism("planar_4r_general"));
+    draft.hold_at("begun", "J1", Number::decimal("0.5").unwrap());
+    let start = Number::decimal("0.12345").unwrap();
+    draft.poses[0].starts = vec![("J2".to_owned(), vec![start.clone()])];
+    let (shuffled, names) = Draft::of(&draft.build()).shuffled(3);
+    let mechanism = shuffled.build();
+    let begun = mechanism.configuration("begun").unwrap();
+    let joint = |name: &str| mechanism.joint_named(&names[name]).unwrap();
+    assert!(begun.held().eq([joint("J1")]));
+    assert!(begun.free.iter().eq([&joint("J2")]));
+    assert!(begun.positions.contains(&(joint("J2"), vec![start])));
 }
 
 /// Sixteen levers of 10 : 1, the last one welded: a rank that doubles do not show, whatever pieces the links are welded of.

@@ -229,6 +229,47 @@ fn links_that_only_gazebo_knows() {
 }
 
 #[test]
+fn links_of_gazebo_that_stand_in_one_another_are_told() {
+    let link = |name: &str, reference: &str| {
+        format!("<link name='{name}'><pose relative_to='{reference}'>0 0 1 0 0 0</pose></link>")
+    };
+    for (links, told) in [
+        (
+            link("e", "e"),
+            "poses run in a circle: `e` is given in itself",
+        ),
+        (
+            link("e", "f") + &link("f", "e"),
+            "poses run in a circle: `e` and `f` are each given in the next one",
+        ),
+    ] {
+        let error = read(
+            &bars("0 0 0", &format!("<gazebo>{links}</gazebo>")),
+            "t.urdf",
+            &[],
+        );
+        let error = error.unwrap_err();
+        assert_eq!((error.message.as_str(), error.line), (told, 3), "{error}");
+    }
+}
+
+#[test]
+fn a_joint_inside_gazebo_with_the_world_below_it_is_told() {
+    let joint = |parent: &str, child: &str| {
+        format!(
+            "<gazebo><joint name='k' type='revolute'><parent>{parent}</parent><child>{child}</child><axis><xyz>0 0 1</xyz></axis></joint></gazebo>"
+        )
+    };
+    for (parent, child, told) in [("d", "world", 1), ("world", "d", 0)] {
+        let warnings = reading(&bars("0 0 0", &joint(parent, child))).warnings;
+        let of_child = warnings
+            .iter()
+            .filter(|one| one.message.contains("the world is its child"));
+        assert_eq!(of_child.count(), told, "{warnings:?}");
+    }
+}
+
+#[test]
 fn the_childs_axis_alone_is_the_axis() {
     let more = "<constraint name='l' type='revolute'><parent link='d'/><child link='c'/><child_axis xyz='1 0 0'/></constraint>";
     assert_eq!(

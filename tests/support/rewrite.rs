@@ -63,8 +63,13 @@ pub struct DraftSum {
     pub offset: Number,
 }
 
-/// The name of a pose, and joints with their values.
-pub type DraftPose = (String, Vec<(String, Vec<Number>)>);
+/// A named pose: joints with their values, those that keep them and those that only begin there.
+#[derive(Clone)]
+pub struct DraftPose {
+    pub name: String,
+    pub held: Vec<(String, Vec<Number>)>,
+    pub starts: Vec<(String, Vec<Number>)>,
+}
 
 /// A mechanism as plain data.
 #[derive(Clone)]
@@ -125,10 +130,18 @@ impl Draft {
             poses: Vec::new(),
         };
         for configuration in mechanism.configurations() {
-            let values = configuration.positions.iter();
-            let named = values.map(|(id, v)| (mechanism.joint(*id).name.clone(), v.clone()));
-            let pose = (configuration.name.clone(), named.collect());
-            draft.poses.push(pose);
+            let named = |free: bool| -> Vec<(String, Vec<Number>)> {
+                let positions = configuration.positions.iter();
+                let these = positions.filter(|(id, _)| configuration.free.contains(id) == free);
+                these
+                    .map(|(id, v)| (mechanism.joint(*id).name.clone(), v.clone()))
+                    .collect()
+            };
+            draft.poses.push(DraftPose {
+                name: configuration.name.clone(),
+                held: named(false),
+                starts: named(true),
+            });
         }
         for coupling in mechanism.couplings() {
             match &coupling.origin {
@@ -169,6 +182,15 @@ impl Draft {
             }
         }
         draft
+    }
+
+    /// Adds a named pose that holds one joint at a value.
+    pub fn hold_at(&mut self, name: &str, joint: &str, value: Number) {
+        self.poses.push(DraftPose {
+            name: name.to_owned(),
+            held: vec![(joint.to_owned(), vec![value])],
+            starts: Vec::new(),
+        });
     }
 
     pub fn build(&self) -> Mechanism {
@@ -226,8 +248,8 @@ impl Draft {
         {
             builder.polynomial_coupling(name, terms.clone(), offset.clone());
         }
-        for (name, values) in &self.poses {
-            builder.configuration(name, values.clone());
+        for DraftPose { name, held, starts } in &self.poses {
+            builder.configuration_with_starts(name, held.clone(), starts.clone());
         }
         builder
             .build()
@@ -472,7 +494,8 @@ impl Draft {
         for (joint, ..) in self.sums.iter_mut().flat_map(|sum| &mut sum.terms) {
             *joint = joints[joint].clone();
         }
-        for (joint, _) in self.poses.iter_mut().flat_map(|(_, values)| values) {
+        let poses = self.poses.iter_mut();
+        for (joint, _) in poses.flat_map(|pose| pose.held.iter_mut().chain(&mut pose.starts)) {
             *joint = joints[joint].clone();
         }
         (self, joints)

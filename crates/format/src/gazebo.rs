@@ -95,9 +95,9 @@ const SDF_MIMIC: Parts<'_> = Parts {
 };
 
 /// Where a joint is, as SDFormat gives it.
-struct Place<'a> {
-    link: &'a str,
-    frame: Frame,
+pub(super) struct Place<'a> {
+    pub(super) link: &'a str,
+    pub(super) frame: Frame,
     parallel_to_root: bool,
 }
 
@@ -132,37 +132,11 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// A link that only Gazebo knows, as those that close the PR2's grippers. It stands in the model's frame until joints
-    /// inside `<gazebo>` hold it.
-    fn read_sdf_link(&mut self, link: Element<'a>) -> Outcome<()> {
-        let name = self.directory.add(Named::Link, link)?;
-        let pose = link.elements().find(|part| part.name() == "pose");
-        let place = self.sdf_place(pose, MODEL)?;
-        self.builder.link(name);
-        self.sdf_links.insert(name);
-        self.late_links.push((name, place.link, place.frame));
-        for part in link.elements().filter(|part| part.name() != "pose") {
-            let what = format!("<{}> of a <link> inside <gazebo>", cut(part.name()));
-            self.skip_because(part, what);
-        }
-        Ok(())
-    }
-
-    /// Places the links that only Gazebo knows.
-    fn place_sdf_links(&mut self) {
-        let root = self.tree_root.unwrap_or_default();
-        for (link, reference, frame) in std::mem::take(&mut self.late_links) {
-            let reference = if reference == MODEL { root } else { reference };
-            let name = format!("{link}{IN_GAZEBO}");
-            self.builder.floating(&name, reference, link, frame);
-        }
-    }
-
     /// Reads the joints that had to wait.
     pub(super) fn read_late_joints(&mut self) -> Vec<super::error::Fault> {
         let mut faults = Vec::new();
         self.tree_root = self.root_link();
-        self.place_sdf_links();
+        faults.extend(self.place_sdf_links().err());
         for joint in std::mem::take(&mut self.late) {
             let read = match joint.written_name() {
                 "joint" => self.read_sdf_joint(joint),
@@ -207,6 +181,10 @@ impl<'a> Reader<'a> {
         let says_all = axis.is_some() || !kind.uses_axis();
         if late.restates && !says_all {
             return Ok(());
+        }
+        if self.is_world(child) {
+            let (kind, message) = world_is_child(joint);
+            self.warn_of(joint.start(), kind, message);
         }
         let name = late.name.clone();
         let mut place = self.sdf_place(place, child)?;
@@ -459,7 +437,11 @@ impl<'a> Reader<'a> {
         link == WORLD && !self.directory.has(Named::Link, WORLD)
     }
 
-    fn sdf_place(&mut self, pose: Option<Element<'a>>, child: &'a str) -> Outcome<Place<'a>> {
+    pub(super) fn sdf_place(
+        &mut self,
+        pose: Option<Element<'a>>,
+        child: &'a str,
+    ) -> Outcome<Place<'a>> {
         let mut place = Place {
             link: child,
             frame: Frame::identity(),
@@ -622,6 +604,19 @@ pub(super) fn kind_of(word: &str) -> Option<JointKind> {
         "fixed" => JointKind::Fixed,
         _ => return None,
     })
+}
+
+/// What is told of a joint that has the world below it.
+pub(super) fn world_is_child(joint: Element<'_>) -> (WarningKind, String) {
+    let name = joint.attribute("name").map_or("", |name| name.value);
+    let kind = WarningKind::ReadersDiffer {
+        what: "child".to_owned(),
+    };
+    let message = format!(
+        "joint {}: the world is its child, for which libsdformat refuses a file; it is read as the joint between the two",
+        quoted(name)
+    );
+    (kind, message)
 }
 
 /// What is told of a screw without a pitch, whose lead is one metre per turn. `sdf::Joint` of libsdformat has that default in metres per

@@ -54,6 +54,7 @@ mod frames;
 #[cfg(feature = "urdf-rs")]
 mod from_urdf_rs;
 mod gazebo;
+mod gazebo_links;
 mod gepetto;
 mod guard;
 mod hints;

@@ -66,8 +66,8 @@ pub(super) struct Reader<'a> {
     pub(super) joined: HashMap<[&'a str; 2], &'a str>,
     /// Joints that are read when all links are known.
     pub(super) late: Vec<Element<'a>>,
-    /// Links that stand inside `<gazebo>`, and where: link, what it is placed in, and its frame there.
-    pub(super) late_links: Vec<(&'a str, &'a str, Frame)>,
+    /// Links that stand inside `<gazebo>`, and where: element, link, what it is placed in, and its frame there.
+    pub(super) late_links: Vec<(Element<'a>, &'a str, &'a str, Frame)>,
     pub(super) sdf_links: HashSet<&'a str>,
     /// Links placed by a floating joint.
     pub(super) floating: HashSet<&'a str>,

@@ -131,6 +131,32 @@ mod tests {
         assert_eq!(analysis.roles[0].locked, Some(false));
     }
 
+    /// A triangle that exact algebra decides, and a four-bar that subgroups do.
+    #[test]
+    fn digits_of_starting_values_switch_no_engine_off() {
+        for corners in [3, 4] {
+            let decided = |start: Option<&str>| {
+                let mut builder = MechanismBuilder::new("ring");
+                builder.link("ground");
+                let places = planar(&CRANK_ROCKER[..corners]);
+                let written = Written::Exactly;
+                add_ring(&mut builder, "r", "ground", &places, [0.0; 3], written);
+                let at = |text| vec![("r_a".to_owned(), vec![Number::decimal(text).unwrap()])];
+                let starts = start.map(at).unwrap_or_default();
+                builder.configuration_with_starts("begun", Vec::new(), starts);
+                let options = AnalysisOptions {
+                    configuration: Some("begun".to_owned()),
+                    ..AnalysisOptions::default()
+                };
+                let found = analyse(&builder.build().unwrap(), &options).unwrap();
+                let part = &found.findings[0];
+                let bounds = [part.lower(), part.upper()];
+                (found.mobility.verdict, part.level(), bounds)
+            };
+            assert_eq!(decided(Some("0.02345")), decided(None), "{corners}");
+        }
+    }
+
     #[test]
     fn every_depth_says_what_the_deeper_ones_say() {
         for mechanism in [four_bar(), general_four()] {

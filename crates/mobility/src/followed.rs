@@ -2,6 +2,7 @@
 
 use super::analyse::analyse;
 use super::analysis::Analysis;
+use super::as_stated::analyse_as_stated;
 use super::options::{AnalysisError, AnalysisOptions};
 use super::vocabulary::Verdict;
 use kutzbach_model::mechanism::Mechanism;
@@ -21,6 +22,7 @@ pub struct Followed {
 ///
 /// Rounded numbers may be told mobile as they stand, since their digits allow the motion, and yet bind when they are followed literally.
 /// Then everything returned is of the nearest mechanism that moves, if it lies within the digits and moves with as many degrees of freedom.
+/// That one is analysed as it stands: what it was meant to be is known, and is not sought again.
 ///
 /// # Errors
 /// [`AnalysisError`] as for [`analyse`].
@@ -37,7 +39,7 @@ pub fn analyse_to_follow(
         && analysis.mobility.verdict == Verdict::Mobile
         && within
     {
-        let of_nearest = analyse(&nearest.mechanism, options)?;
+        let of_nearest = analyse_as_stated(&nearest.mechanism, options)?;
         if of_nearest.mobility.finite() == analysis.mobility.finite() {
             return Ok(Followed {
                 mechanism: nearest.mechanism.clone(),

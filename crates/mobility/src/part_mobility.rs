@@ -360,12 +360,13 @@ fn one_branch(
 /// A rounded part is followed so many steps of a quarter radian.
 const FOLLOWED: usize = 10;
 
-/// One with more unknowns than are walked along otherwise, so many: half a radian is as far as it takes for a leftover to stand
-/// clear of the rounding of exact numbers, each step takes several factors of the whole part, and what is rounded stays open.
+/// One with more unknowns than are walked along otherwise, so many, since each step takes several factors of the whole part. No answer is
+/// wrong for it: a shorter way is called regular only where a leftover would show on it, which on half a radian it does in exact numbers
+/// ([`LEAST_COEFFICIENT`] times 1/16 is far above their rounding) and not in rounded ones, which stay open.
 const FOLLOWED_IF_LARGE: usize = 2;
 
-/// The least coefficient of the leftover's fourth order that would show on the way. Those of known singular poses are
-/// 1e-5 and more.
+/// The least coefficient of the leftover's fourth order that would show on the way. Those of known singular poses are 1e-5 and more, which is
+/// measured and not derived: a part whose leftover begins with a smaller one, and that closes all along the way, would be called regular.
 const LEAST_COEFFICIENT: f64 = 1e-5;
 
 /// Rounded numbers leave so much room that near the pose a small leftover is lost in it: whether a part moves shows farther

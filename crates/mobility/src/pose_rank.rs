@@ -29,7 +29,7 @@ mod readings;
 use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
 use kutzbach_math::matrix::{MatrixError, NullVectors, RankDecision, SparseMatrix};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Configuration, CouplingTerm, Mechanism};
+use kutzbach_model::mechanism::{Configuration, CouplingTerm, JointId, Mechanism};
 pub use note::RankNote;
 use readings::Readings;
 use std::cell::Cell;
@@ -126,13 +126,23 @@ pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
     }
 }
 
-/// [`height`], the values that a configuration gives the part's joints included.
+/// [`height`], the values that a configuration gives the part's joints included: of joints that only begin at theirs, where the part
+/// stands there. From elsewhere assembly has moved it, and what it began at says nothing about its numbers or its pose.
 pub(super) fn height_at(pose: &Pose<'_>, part: &Part) -> usize {
-    let values = pose.configuration.iter().flat_map(|c| &c.positions);
-    values
-        .filter(|(joint, _)| part.joints.contains(&joint.0))
-        .flat_map(|(_, values)| values.iter().map(kutzbach_math::number::Number::height))
-        .fold(height(pose.mechanism, part), usize::max)
+    let own = height(pose.mechanism, part);
+    let Some(configuration) = pose.configuration else {
+        return own;
+    };
+    let drawn = |&joint: &usize| pose.states[joint].values == pose.geometry.states[joint].values;
+    let stands = part.joints.iter().all(drawn);
+    let counts = |joint: &JointId| {
+        part.joints.contains(&joint.0) && (stands || !configuration.free.contains(joint))
+    };
+    let positions = configuration.positions.iter();
+    positions
+        .filter(|(joint, _)| counts(joint))
+        .flat_map(|(_, values)| values.iter().map(Number::height))
+        .fold(own, usize::max)
 }
 
 /// The rank of a part at a pose.

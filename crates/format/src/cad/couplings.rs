@@ -16,6 +16,9 @@ use kutzbach_math::space::dot;
 /// Directions count as parallel up to this sine; drawings are precise to 1e-9 and worse.
 const PARALLEL: f64 = 1e-6;
 
+/// What rounding leaves of a variable that is drawn at zero, of the size of the coordinates that it was computed from: some dozen products.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
+
 /// A joint that bears a part: its index, and whether its variable grows with the part's motion along its axis.
 #[derive(Clone, Copy)]
 struct Bearing {
@@ -68,7 +71,7 @@ impl Maker<'_> {
         };
         let ways = [frames[0].rotate(&first), second];
         let mut terms = Vec::new();
-        let mut offset = 0.0;
+        let (mut offset, mut rounding) = (0.0, 0.0);
         for i in 0..2 {
             let Bearing { mover, sign, .. } = bearings[i];
             let mover = &self.movers[mover];
@@ -85,6 +88,7 @@ impl Maker<'_> {
                 false => -factors[i].clone(),
             };
             offset += factor.value() * mover.home;
+            rounding += ROUNDED * (factor.value() * mover.size).abs();
             terms.push((mover.name.clone(), factor));
         }
         if terms[0].0 == terms[1].0 {
@@ -93,7 +97,7 @@ impl Maker<'_> {
         }
         let name = self.take_name(&joint.name);
         self.places.insert(name.clone(), joint.range.clone());
-        let offset = match offset.abs() < 1e-13 {
+        let offset = match offset.abs() <= rounding {
             true => Number::zero(),
             false => in_full(offset),
         };

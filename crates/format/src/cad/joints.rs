@@ -4,8 +4,16 @@ use super::{Bounds, CadJoint, End, Kind, Maker, Mover, Side};
 use crate::error::Outcome;
 use crate::frames::{added, frame_of, one_after_another, sum};
 use kutzbach_math::number::{Number, Quantity};
-use kutzbach_math::space::Rigid;
+use kutzbach_math::space::{Rigid, length};
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind, Limit};
+
+/// An angle whose sine is smaller asks for parallel axes: FreeCAD makes `ParallelAxesJoint` of angles below 1e-7
+/// (`AssemblyObject::makeMbdJointOfType`, `Precision::Confusion`). As a turn at such an angle the joint would have a freedom more, which
+/// no drawing shows. Half a turn asks for axes that point against one another, which are parallel as well.
+const NO_ANGLE: f64 = 1e-7;
+
+/// What rounding leaves of a direction's component that is zero: some dozen products of numbers of size one.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 fn axis(index: usize) -> Direction {
     Direction([0, 1, 2].map(|i| match i == index {
@@ -115,6 +123,13 @@ impl Maker<'_> {
                     true => x[1].atan2(x[0]),
                     false => seen.apply(&[0.0; 3])[2],
                 },
+                size: match turns {
+                    true => 1.0,
+                    false => frames
+                        .iter()
+                        .map(|f| length(&f.translation))
+                        .fold(0.0, f64::max),
+                },
             });
         }
         if kind == JointKind::Fixed {
@@ -173,15 +188,16 @@ impl Maker<'_> {
 
     /// Two directions at an angle: all translations, a turn about the one, and a turn about the other at that angle to it.
     fn at_an_angle(&mut self, joint: &CadJoint, angle: &Number) -> Outcome<()> {
-        if angle.value().sin().abs() < 1e-9 {
+        if angle.value().sin().abs() < NO_ANGLE {
             let sides = self.alike(&joint.sides, false);
             self.close(joint, &joint.name, JointKind::Schoenflies, &sides);
             return Ok(());
         }
         let Drawn { frames, seen } = self.drawn(&joint.sides);
         // A frame whose z axis is I's, at J's origin, turned so that J's z axis leans towards its −y, as a turn about its x axis has it.
+        // Where the two are drawn parallel it may lean either way: the joint is closed from there.
         let [x, y, _] = seen.rotate(&[0.0, 0.0, 1.0]);
-        let way = match x.hypot(y) > 1e-9 {
+        let way = match x.hypot(y) > ROUNDED {
             true => x.atan2(-y),
             false => 0.0,
         };

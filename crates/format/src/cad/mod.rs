@@ -127,6 +127,8 @@ struct Mover {
     axis: [f64; 3],
     /// Its variable as drawn (rad, m).
     home: f64,
+    /// The largest number that this was computed from: a turn from components of directions, a slide from coordinates (m).
+    size: f64,
 }
 
 struct Maker<'a> {

@@ -1,8 +1,10 @@
-//! `<attach model body prefix>`: a body of another file in its place, written out before anything is read.
+//! `<attach model body prefix>`: a body of another file in its place, written out before anything is read; a frame with `frame`, and without either all
+//! that stands in the world of that file.
 //!
-//! The body, with everything in it, stands in a `<frame>` with the settings and the default classes of its file; the prefix begins all names that it
-//! brings. Tendons, equalities and actuators of that file come along where everything that they name is brought, or is the world. So much is what MuJoCo
-//! makes of such files. Keys, contacts and sensors of the file stay behind.
+//! What is attached stands in a `<frame>` with the settings and the default classes of its file; the prefix begins all names that it brings. Tendons,
+//! equalities and actuators of that file come along where everything that they name is brought, or is the world, and [keys](super::attached_keys) with what
+//! they say of it. So much is what MuJoCo 4.0.0 makes of such files, but for keys of what the attached file itself attaches, of whose names it forgets the
+//! outer prefix. What else the file says stays behind, and is told.
 
 use super::classes::{ATTACHED, MAIN};
 use super::include::{Piece, Whole, expanded};
@@ -22,10 +24,20 @@ const SETTINGS: &str =
 /// Sections of which something comes along; what names others after them.
 const SECTIONS: [&str; 3] = ["tendon", "equality", "actuator"];
 
+/// Sections that are taken in other ways.
+const TAKEN: [&str; 6] = [
+    "compiler",
+    "default",
+    ATTACHED,
+    "worldbody",
+    "keyframe",
+    "asset",
+];
+
 /// A text with what it attaches written out.
 ///
 /// # Errors
-/// Models that cannot be read, bodies that they do not have, and attachments without a body.
+/// Models that cannot be read, bodies and frames that they do not have, and attachments without a model.
 pub(super) fn attached(mut whole: Whole, depth: usize) -> Result<Whole, FormatError> {
     if !whole.text.contains("<attach") {
         return Ok(whole);
@@ -64,8 +76,31 @@ pub(super) fn attached(mut whole: Whole, depth: usize) -> Result<Whole, FormatEr
 struct Attachment {
     range: Range<usize>,
     file: String,
-    body: String,
+    wanted: Wanted,
     prefix: String,
+}
+
+/// What is attached of a model.
+enum Wanted {
+    /// Everything in its world.
+    World,
+    /// The element with a name.
+    Named(&'static str, String),
+}
+
+impl Wanted {
+    fn of(attach: Element<'_>) -> Outcome<Self> {
+        let named = |sort: &'static str| {
+            let name = attach.attribute(sort)?;
+            Some(Self::Named(sort, name.value.to_owned()))
+        };
+        match (named("body"), named("frame")) {
+            (Some(_), Some(_)) => {
+                Err(attach.fault("<attach> takes a `body` or a `frame`, not both"))
+            }
+            (body, frame) => Ok(body.or(frame).unwrap_or(Self::World)),
+        }
+    }
 }
 
 /// All of a text, and where its root element ends.
@@ -92,7 +127,11 @@ fn asked(whole: &Whole) -> Outcome<Asked> {
             open.extend(element.elements());
             continue;
         }
-        let model = element.required("model")?;
+        let Some(model) = element.attribute("model") else {
+            return Err(element
+                .fault("<attach> without a `model`, which copies something of the file itself, is not read")
+                .help("save the model as MuJoCo compiled it: mj_saveLastXML"));
+        };
         let file = models.iter().find(|(name, _)| *name == model.value);
         let Some((_, file)) = file else {
             let known = models.iter().map(|(name, _)| *name);
@@ -100,15 +139,10 @@ fn asked(whole: &Whole) -> Outcome<Asked> {
                 .fault(format!("there is no model {}", quoted(model.value)))
                 .maybe_help(did_you_mean(model.value, known, ("`", "`"))));
         };
-        let Some(body) = element.attribute("body") else {
-            return Err(element
-                .fault("<attach> without a `body` is not read")
-                .help("attach the bodies of the model one by one, or save the model as MuJoCo compiled it: mj_saveLastXML"));
-        };
         attachments.push(Attachment {
             range: stretch(element),
             file: (*file).to_owned(),
-            body: body.value.to_owned(),
+            wanted: Wanted::of(element)?,
             prefix: element.required("prefix")?.value.to_owned(),
         });
     }
@@ -145,18 +179,12 @@ fn written_out(
             model,
             root: Element::root(&document, &model.text),
             prefix: escaped(&one.prefix).replace('\'', "&apos;"),
+            mark: one.range.start.to_string(),
             main,
         };
-        let Some((body, class)) = brought.body(&one.body) else {
-            let message = format!(
-                "there is no body {} in {}",
-                quoted(&one.body),
-                quoted(&one.file)
-            );
-            return Err(Fault::new(one.range.clone(), message));
-        };
-        brought.frame(body, class, &mut writing);
-        brought.sections(body, &mut sections);
+        let (parts, class) = brought.wanted(one)?;
+        brought.frame(&parts, class, &mut writing);
+        brought.sections(&parts, &mut sections);
         at = one.range.end;
         let size = writing.text.len() + sections.text.len() + whole.text.len();
         if let Some(fault) = guard::size_fault(size as u64) {
@@ -173,27 +201,56 @@ fn written_out(
 }
 
 /// What one attachment brings of a model.
-struct Brought<'m> {
-    model: &'m Whole,
-    root: Element<'m>,
-    prefix: String,
+pub(super) struct Brought<'m> {
+    pub(super) model: &'m Whole,
+    pub(super) root: Element<'m>,
+    pub(super) prefix: String,
+    /// What the attachment is known by: no other one of the text has it.
+    pub(super) mark: String,
     /// Where the main file asks for it.
-    main: usize,
+    pub(super) main: usize,
 }
 
 impl<'m> Brought<'m> {
-    /// A body, and the class that those around it give what is inside it. What the model itself attaches has settings of its own, and is brought
-    /// with the body that it is attached to only.
-    fn body(&self, name: &str) -> Option<(Element<'m>, Option<&'m str>)> {
-        let worlds = inside(self.root, "worldbody");
+    pub(super) fn sections_named(&self, name: &'static str) -> impl Iterator<Item = Element<'m>> {
+        self.root.elements().filter(move |part| part.name() == name)
+    }
+
+    pub(super) fn worlds(&self) -> impl Iterator<Item = Element<'m>> {
+        self.sections_named("worldbody")
+    }
+
+    /// The elements that an attachment is for, and the class that those around them give what is inside them.
+    fn wanted(&self, one: &Attachment) -> Outcome<(Vec<Element<'m>>, Option<&'m str>)> {
+        let (sort, name) = match &one.wanted {
+            Wanted::World => {
+                let all = self.worlds().flat_map(|world| world.elements());
+                return Ok((all.collect(), None));
+            }
+            Wanted::Named(sort, name) => (*sort, name),
+        };
+        let Some((element, class)) = self.named(sort, name) else {
+            let message = format!(
+                "there is no {sort} {} in {}",
+                quoted(name),
+                quoted(&one.file)
+            );
+            return Err(Fault::new(one.range.clone(), message));
+        };
+        Ok((vec![element], class))
+    }
+
+    /// A body or a frame, and the class that those around it give what is inside it. What the model itself attaches has settings of its own, and is
+    /// brought with the body that it is attached to only.
+    fn named(&self, sort: &str, name: &str) -> Option<(Element<'m>, Option<&'m str>)> {
         let mut open: Vec<(Element<'m>, Option<&'m str>)> =
-            worlds.map(|part| (part, None)).collect();
+            self.worlds().map(|part| (part, None)).collect();
         while let Some((element, class)) = open.pop() {
             let own = element.attribute("name").map(|own| own.value);
-            if element.name() == "body" && own == Some(name) {
+            if element.name() == sort && own == Some(name) {
                 return Some((element, class));
             }
-            if element.elements().any(|part| part.name() == "compiler") {
+            if element.attribute(ATTACHED).is_some() {
                 continue;
             }
             let own = element.attribute("childclass").map(|own| own.value);
@@ -209,25 +266,26 @@ impl<'m> Brought<'m> {
         named.map_or(MAIN, |class| class.value)
     }
 
-    /// Writes the body in a frame.
-    fn frame(&self, body: Element<'m>, class: Option<&str>, writing: &mut Writing) {
+    /// Writes elements in a frame.
+    fn frame(&self, parts: &[Element<'m>], class: Option<&str>, writing: &mut Writing) {
         let class = escaped(class.unwrap_or_else(|| self.class())).into_owned();
-        let open = format!("<frame childclass=\"{}{class}\">{SETTINGS}", self.prefix);
-        let at = body.start();
+        let open = format!(
+            "<frame {ATTACHED}=\"{}\" childclass=\"{}{class}\">{SETTINGS}",
+            self.mark, self.prefix
+        );
+        let at = parts.first().map_or(self.root.start(), Element::start);
         writing.insert(self.model, &open, at, Some(self.main));
-        for settings in self
-            .root
-            .elements()
-            .filter(|part| part.name() == "compiler")
-        {
+        for settings in self.sections_named("compiler") {
             writing.copy(self.model, stretch(settings), Some(self.main));
         }
-        self.write(body, Vec::new(), writing);
+        for part in parts {
+            self.write(*part, Vec::new(), writing);
+        }
         writing.insert(self.model, "</frame>", at, Some(self.main));
     }
 
-    /// Writes the classes of the file, and what of its sections belongs to the body.
-    fn sections(&self, body: Element<'m>, writing: &mut Writing) {
+    /// Writes the classes of the file, and what of its sections belongs to the elements.
+    fn sections(&self, parts: &[Element<'m>], writing: &mut Writing) {
         let (at, main) = (self.root.start(), Some(self.main));
         let class = format!("{}{}", self.prefix, escaped(self.class()));
         let open = format!("<{ATTACHED} class=\"{class}\">");
@@ -236,10 +294,10 @@ impl<'m> Brought<'m> {
             self.write(part, Vec::new(), writing);
         }
         writing.insert(self.model, &format!("</{ATTACHED}>"), at, main);
-        for classes in self.root.elements().filter(|part| part.name() == ATTACHED) {
+        for classes in self.sections_named(ATTACHED) {
             self.write(classes, Vec::new(), writing);
         }
-        let mut known = names_in(body);
+        let mut known = names_in(parts);
         for name in SECTIONS {
             writing.insert(self.model, &format!("<{name}>"), at, main);
             for part in inside(self.root, name) {
@@ -266,10 +324,28 @@ impl<'m> Brought<'m> {
             }
             writing.insert(self.model, &format!("</{name}>"), at, main);
         }
+        self.keys(parts, writing);
+        let left = self.root.elements();
+        for part in
+            left.filter(|part| !SECTIONS.contains(&part.name()) && !TAKEN.contains(&part.name()))
+        {
+            // Empty, it says nothing, and is told as what is not read.
+            writing.insert(
+                self.model,
+                &format!("<{}/>", part.name()),
+                part.start(),
+                main,
+            );
+        }
     }
 
     /// Writes an element with its names longer, and with more text at some places.
-    fn write(&self, element: Element<'m>, more: Vec<(usize, String)>, writing: &mut Writing) {
+    pub(super) fn write(
+        &self,
+        element: Element<'m>,
+        more: Vec<(usize, String)>,
+        writing: &mut Writing,
+    ) {
         let mut marks = more;
         let mut open = vec![element];
         while let Some(part) = open.pop() {
@@ -278,6 +354,8 @@ impl<'m> Brought<'m> {
             let others = own_references(part).filter(|(sort, name)| !is_world(*sort, name));
             let names = own.chain(others.map(|(_, name)| name));
             marks.extend(names.map(|name| (name.range().start, self.prefix.clone())));
+            let mark = part.attribute(ATTACHED);
+            marks.extend(mark.map(|own| (own.range().start, format!("{}/", self.mark))));
             open.extend(part.elements());
         }
         marks.sort_by_key(|(at, _)| *at);
@@ -308,10 +386,10 @@ fn references_of(part: Element<'_>) -> Vec<(Sort, Attribute<'_>)> {
     all.flat_map(own_references).collect()
 }
 
-/// What a body brings that others may name; and the world, which all have.
-fn names_in(body: Element<'_>) -> BTreeSet<(Sort, &str)> {
+/// What elements bring that others may name; and the world, which all have.
+fn names_in<'a>(parts: &[Element<'a>]) -> BTreeSet<(Sort, &'a str)> {
     let mut found = BTreeSet::from([(Sort::Body, super::WORLD)]);
-    let mut open = vec![body];
+    let mut open = parts.to_vec();
     while let Some(element) = open.pop() {
         let sort = match element.name() {
             "body" => Some(Sort::Body),
@@ -328,7 +406,7 @@ fn names_in(body: Element<'_>) -> BTreeSet<(Sort, &str)> {
 
 /// The text that is made, and where its parts are from.
 #[derive(Default)]
-struct Writing {
+pub(super) struct Writing {
     text: String,
     pieces: Vec<Piece>,
 }
@@ -347,7 +425,7 @@ impl Writing {
     }
 
     /// Writes something that belongs to a place of a text.
-    fn insert(&mut self, from: &Whole, text: &str, at: usize, main: Option<usize>) {
+    pub(super) fn insert(&mut self, from: &Whole, text: &str, at: usize, main: Option<usize>) {
         if !text.is_empty() {
             let piece = from.piece_of(at, self.text.len());
             self.pieces.extend(piece.map(|piece| match main {

@@ -2,7 +2,7 @@
 
 use super::keys::Coordinate;
 use super::mass::Load;
-use super::pose::{Compiler, exactly, least_turn};
+use super::pose::{Source, exactly, least_turn};
 use super::{Known, Mjcf, Place, SOFT, WORLD};
 use crate::WarningKind;
 use crate::element::Element;
@@ -27,8 +27,7 @@ struct Open<'a> {
     place: Rc<Place>,
     /// The class that the body around it gives.
     class: Option<&'a str>,
-    /// The settings of the file that it is from.
-    compiler: Compiler,
+    source: Source<'a>,
 }
 
 /// Something in a body, its class, and the frames inside the body that it stands in, as one.
@@ -36,6 +35,7 @@ pub(super) struct Found<'a> {
     pub(super) element: Element<'a>,
     pub(super) class: Option<&'a str>,
     pub(super) frame: Frame,
+    pub(super) source: Source<'a>,
 }
 
 impl<'a> Mjcf<'a> {
@@ -47,20 +47,21 @@ impl<'a> Mjcf<'a> {
         });
         // Nesting is bounded by memory alone: no recursion.
         let mut open = Vec::new();
-        let compiler = self.compiler;
+        let outer = self.source.clone();
         self.inside(world, &place, None, &mut open)?;
         while let Some(Open {
             element,
             place,
             class,
-            compiler,
+            source,
         }) = open.pop()
         {
-            self.compiler = compiler;
-            // The frame of what is attached has the settings of its file.
-            let settings = element.elements().filter(|part| part.name() == "compiler");
-            for own in settings.filter(|_| element.name() == "frame") {
-                self.compile(own)?;
+            self.source = source;
+            if element.name() == "frame" {
+                self.source = self.source.inside(element)?;
+                for own in element.elements().filter(|part| part.name() == "compiler") {
+                    self.tell_unread_settings(own);
+                }
             }
             let of = self.classes.of(element, class)?;
             let own = element.attribute("childclass").map(|own| own.value);
@@ -79,7 +80,7 @@ impl<'a> Mjcf<'a> {
             });
             self.inside(element, &inner, class, &mut open)?;
         }
-        self.compiler = compiler;
+        self.source = outer;
         Ok(())
     }
 
@@ -98,7 +99,7 @@ impl<'a> Mjcf<'a> {
                     element: part,
                     place: Rc::clone(place),
                     class,
-                    compiler: self.compiler,
+                    source: self.source.clone(),
                 }),
                 "site" => self.site(part, place, class)?,
                 "joint" | "freejoint" => {
@@ -166,11 +167,15 @@ impl<'a> Mjcf<'a> {
             self.mocap.insert(name.clone());
         }
         let load = self.load_of(body, class)?;
+        let source = self.source.clone();
         let free = joints
             .iter()
             .find(|joint| self.word(joint.element, joint.class) == Ok("free"));
         if let Some(free) = free {
-            return self.float(free.element, joints.len(), (name, place), load);
+            self.source = free.source.clone();
+            let floating = self.float(free.element, joints.len(), (name, place), load);
+            self.source = source;
+            return floating;
         }
         if joints.is_empty() {
             let (parent, frame) = self.at(place, &name);
@@ -195,12 +200,14 @@ impl<'a> Mjcf<'a> {
                     self.builder.link(&to);
                 }
             }
+            self.source = joint.source.clone();
             self.make_joint(&joint, &place, (&name, &to))?;
             place = Place {
                 link: to,
                 chain: Vec::new(),
             };
         }
+        self.source = source;
         Ok(name)
     }
 
@@ -236,6 +243,7 @@ impl<'a> Mjcf<'a> {
             zero: Number::zero(),
             frame: Frame::identity(),
             is_held: false,
+            within: Rc::clone(&self.source.within),
         });
         self.builder.floating(&joint, &parent, &name, frame);
         Ok(name)
@@ -265,16 +273,18 @@ impl<'a> Mjcf<'a> {
 
     /// What a body has of some names, in frames inside it too, in the order of the file.
     pub(super) fn parts_of(
-        &self,
+        &mut self,
         body: Element<'a>,
         class: Option<&'a str>,
         names: &[&str],
     ) -> Outcome<Vec<Found<'a>>> {
         let mut found = Vec::new();
+        let source = self.source.clone();
         let mut open = vec![Found {
             element: body,
             class,
             frame: Frame::identity(),
+            source: self.source.clone(),
         }];
         while let Some(here) = open.pop() {
             if names.contains(&here.element.name()) {
@@ -283,11 +293,13 @@ impl<'a> Mjcf<'a> {
             }
             let mut inside = Vec::new();
             for part in here.element.elements() {
+                self.source = here.source.clone();
                 let (class, frame) = match part.name() {
                     name if names.contains(&name) => (here.class, here.frame.clone()),
                     "frame" => {
                         let of = self.classes.of(part, here.class)?;
                         let own = part.attribute("childclass").map(|own| own.value);
+                        self.source = here.source.inside(part)?;
                         let frame = one_after_another(&here.frame, &self.frame(part, of)?);
                         (own.or(here.class), frame)
                     }
@@ -297,10 +309,12 @@ impl<'a> Mjcf<'a> {
                     element: part,
                     class,
                     frame,
+                    source: self.source.clone(),
                 });
             }
             open.extend(inside.into_iter().rev());
         }
+        self.source = source;
         Ok(found)
     }
 
@@ -343,6 +357,7 @@ impl<'a> Mjcf<'a> {
             zero: self.reference(joint, of, kind)?,
             frame: at.clone(),
             is_held: held,
+            within: Rc::clone(&self.source.within),
         });
         let made = match held {
             true => tree(&name, JointKind::Fixed, &parent, to),

@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 /// The name of the class that all others come from, where the file gives it none.
 pub(super) const MAIN: &str = "main";
 
-/// The root element that holds the classes of a file that something is attached from.
+/// The root element that holds the classes of a file that something is attached from; and the attribute of the frame of what is attached, and of the keys that
+/// came with it, that marks the attachment.
 pub(super) const ATTACHED: &str = "attached";
 
 /// A class: the one that it comes from, and its elements.

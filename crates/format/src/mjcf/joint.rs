@@ -83,7 +83,7 @@ impl<'a> Mjcf<'a> {
         let what = match (kind, limited) {
             (JointKind::Spherical, _) => "`range` of a ball",
             (_, "true" | "false") => return,
-            _ if self.compiler.autolimits => return,
+            _ if self.source.compiler.autolimits => return,
             _ => "`range` of a joint without `limited`, where `autolimits` is off",
         };
         self.unread.text(range.range().start, what.to_owned());
@@ -106,7 +106,7 @@ impl<'a> Mjcf<'a> {
         let limited = match attribute("limited").map_or("auto", |word| word.value) {
             "true" => true,
             "false" => false,
-            _ => self.compiler.autolimits && proper,
+            _ => self.source.compiler.autolimits && proper,
         };
         if !limited {
             return Ok(None);

@@ -55,7 +55,9 @@ impl<'a> Mjcf<'a> {
         let mut load = Load::default();
         let mut stated = None;
         let mut lumps = Lumps::default();
+        let source = self.source.clone();
         for found in self.parts_of(body, class, &["geom", "inertial"])? {
+            self.source = found.source.clone();
             let read = match found.element.name() {
                 "inertial" if stated.is_some() => {
                     Err(found.element.fault("the body has one already"))
@@ -69,10 +71,11 @@ impl<'a> Mjcf<'a> {
                 self.not_read(found.element, &fault);
             }
         }
+        self.source = source;
         if body.name() != "body" {
             return Ok(load);
         }
-        load.inertial = match (self.compiler.mass_of_geoms, stated) {
+        load.inertial = match (self.source.compiler.mass_of_geoms, stated) {
             (Some(false), stated) | (None, stated @ Some(_)) => stated,
             _ if lumps.is_open => {
                 let what = "mass of a body that depends on a mesh or a shell";

@@ -23,6 +23,7 @@
 
 mod anchors;
 mod attach;
+mod attached_keys;
 mod bodies;
 mod classes;
 mod closures;
@@ -52,7 +53,7 @@ pub(super) use include::{Whole, whole};
 use keys::Coordinate;
 use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
 use mass::Load;
-use pose::Compiler;
+use pose::Source;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -99,7 +100,7 @@ struct Place {
 
 struct Mjcf<'a> {
     builder: MechanismBuilder,
-    compiler: Compiler,
+    source: Source<'a>,
     classes: Classes<'a>,
     /// Links and joints by the names that they have here, and where they are written.
     links: BTreeMap<String, Range<usize>>,
@@ -121,7 +122,7 @@ struct Mjcf<'a> {
     /// Joints that an equality holds where they are drawn.
     held: BTreeSet<&'a str>,
     /// What `qpos` of a key is made of, in its order.
-    coordinates: Vec<Coordinate>,
+    coordinates: Vec<Coordinate<'a>>,
     key_names: BTreeSet<String>,
     warnings: Vec<(usize, WarningKind, String)>,
     unread: Tally<'a>,
@@ -141,7 +142,7 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
     let name = root.attribute("model").map_or("mujoco", |name| name.value);
     let mut mjcf = Mjcf {
         builder: MechanismBuilder::new(name),
-        compiler: Compiler::default(),
+        source: Source::default(),
         classes: Classes::default(),
         links: BTreeMap::new(),
         names: BTreeMap::new(),
@@ -173,7 +174,8 @@ impl<'a> Mjcf<'a> {
     fn all(&mut self, root: Element<'a>) -> Outcome<()> {
         let sections = |name: &'static str| root.elements().filter(move |e| e.name() == name);
         for compiler in sections("compiler") {
-            self.compile(compiler)?;
+            self.source.compiler.take(compiler)?;
+            self.tell_unread_settings(compiler);
         }
         for default in sections("default").chain(sections(ATTACHED)) {
             self.classes.read(default)?;
@@ -220,33 +222,14 @@ impl<'a> Mjcf<'a> {
         Ok(())
     }
 
-    fn compile(&mut self, element: Element<'a>) -> Outcome<()> {
-        self.compiler.take_angles(element)?;
-        if let Some(coordinate) = element
-            .attribute("coordinate")
-            .filter(|c| c.value == "global")
-        {
-            return Err(coordinate.fault(
-                "global coordinates are not read, and by MuJoCo no more since version 2.3.3",
-            ));
-        }
-        if let Some(says) = element.attribute("autolimits") {
-            self.compiler.autolimits = says.value != "false";
-        }
-        if let Some(says) = element.attribute("inertiafromgeom") {
-            self.compiler.mass_of_geoms = match says.value {
-                "true" => Some(true),
-                "false" => Some(false),
-                _ => None,
-            };
-        }
+    /// Tells what settings say that is not read.
+    fn tell_unread_settings(&mut self, element: Element<'a>) {
         for name in CHANGES_MASSES {
             if let Some(says) = element.attribute(name) {
                 let what = format!("`{name}` of <compiler>");
                 self.unread.text(says.range().start, what);
             }
         }
-        Ok(())
     }
 
     /// A name that nothing of its sort has, nor will have.

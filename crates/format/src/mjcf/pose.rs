@@ -4,6 +4,7 @@
 //! Others are worked out in doubles that know the literals behind them ([`quaternion`](crate::quaternion)).
 
 use super::Mjcf;
+use super::classes::ATTACHED;
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
 use crate::frames::radians_of;
@@ -12,6 +13,30 @@ pub(super) use crate::values::{exactly, numbers};
 use kutzbach_math::number::{Number, Quantity};
 use kutzbach_math::space::cross;
 use kutzbach_model::mechanism::Frame;
+use std::rc::Rc;
+
+/// What is particular to the file that something is from.
+#[derive(Clone, Default)]
+pub(super) struct Source<'a> {
+    /// Its settings.
+    pub(super) compiler: Compiler,
+    /// What marks the attachments that it came with, the outermost first.
+    pub(super) within: Rc<[&'a str]>,
+}
+
+impl<'a> Source<'a> {
+    /// The same inside a frame: that of what is attached has the settings of its file.
+    pub(super) fn inside(&self, frame: Element<'a>) -> Outcome<Self> {
+        let mut inner = self.clone();
+        for settings in frame.elements().filter(|part| part.name() == "compiler") {
+            inner.compiler.take(settings)?;
+        }
+        if let Some(own) = frame.attribute(ATTACHED) {
+            inner.within = self.within.iter().copied().chain([own.value]).collect();
+        }
+        Ok(inner)
+    }
+}
 
 /// What `<compiler>` says.
 #[derive(Clone, Copy)]
@@ -38,6 +63,28 @@ impl Default for Compiler {
 }
 
 impl Compiler {
+    /// Takes what an element says.
+    pub(super) fn take(&mut self, element: Element<'_>) -> Outcome<()> {
+        self.take_angles(element)?;
+        let coordinate = element.attribute("coordinate");
+        if let Some(coordinate) = coordinate.filter(|says| says.value == "global") {
+            return Err(coordinate.fault(
+                "global coordinates are not read, and by MuJoCo no more since version 2.3.3",
+            ));
+        }
+        if let Some(says) = element.attribute("autolimits") {
+            self.autolimits = says.value != "false";
+        }
+        if let Some(says) = element.attribute("inertiafromgeom") {
+            self.mass_of_geoms = match says.value {
+                "true" => Some(true),
+                "false" => Some(false),
+                _ => None,
+            };
+        }
+        Ok(())
+    }
+
     /// Takes what an element says of angles.
     pub(super) fn take_angles(&mut self, element: Element<'_>) -> Outcome<()> {
         if let Some(angle) = element.attribute("angle") {
@@ -134,7 +181,7 @@ pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
 impl<'a> Mjcf<'a> {
     /// An angle in the unit of the file.
     pub(super) fn angle(&self, number: &Number) -> Number {
-        self.compiler.angle(number)
+        self.source.compiler.angle(number)
     }
 
     /// The frame of an element of a class: `pos` and how it is turned.
@@ -176,7 +223,7 @@ impl<'a> Mjcf<'a> {
                 let [w, x, y, z] = exactly(turn)?;
                 roll_pitch_yaw(&[x, y, z, w]).ok_or_else(none)
             }
-            "euler" => self.compiler.euler(exactly(turn)?).ok_or_else(none),
+            "euler" => self.source.compiler.euler(exactly(turn)?).ok_or_else(none),
             "axisangle" => {
                 let [x, y, z, angle] = exactly(turn)?;
                 let angle = self.angle(&angle);

@@ -7,7 +7,7 @@ use crate::assumed::{ONE_AXIS, are_parallel};
 use crate::axis_limits::of_axis;
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
-use crate::gazebo::{NO_PITCH, kind_of, lead_of, needed};
+use crate::gazebo::{NO_PITCH, kind_of, lead_of, needed, world_is_child};
 use crate::unread::truth;
 use crate::values::exactly;
 use crate::words::{cut, quoted};
@@ -133,6 +133,10 @@ impl<'a> Sdf<'a> {
             let what = "<joint> between links that are all held".to_owned();
             self.unread.text(joint.start(), what);
             return Ok(());
+        }
+        if sides[1].is_none() {
+            let (kind, message) = world_is_child(joint);
+            self.warn(joint.start(), kind, message);
         }
         // In any capitals, as libsdformat reads it.
         let typed = word.value.trim().to_lowercase();

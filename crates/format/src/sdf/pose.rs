@@ -8,10 +8,11 @@ use crate::element::{Attribute, Element};
 use crate::error::{Fault, Outcome};
 use crate::frames::{is_turned, radians_of, sum};
 use crate::gazebo::needed;
+use crate::gazebo_links::poses_in_a_circle;
 use crate::quaternion::roll_pitch_yaw;
 use crate::unread::truth;
 use crate::values::exactly;
-use crate::words::{listed, quoted};
+use crate::words::quoted;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Frame, FrameTree, MechanismBuilder, Placement};
 use std::ops::Range;
@@ -60,14 +61,9 @@ impl Graph {
 
     /// The tree that the nodes make; where they run in a circle, the nodes of that, each given in the next.
     fn settle(&mut self) -> Result<(), Vec<usize>> {
-        // Only the world is its own parent.
-        let mut nodes = self.0.iter().enumerate();
-        if let Some((index, _)) =
-            nodes.find(|(index, node)| *index != WORLD && *index == node.parent)
-        {
-            return Err(vec![index]);
-        }
-        self.1 = FrameTree::new(self.0.iter().map(|node| node.parent).collect())?;
+        let nodes = self.0.iter().enumerate();
+        let parents = nodes.map(|(index, node)| (index != WORLD).then_some(node.parent));
+        self.1 = FrameTree::new(parents.collect())?;
         Ok(())
     }
 
@@ -249,16 +245,9 @@ impl<'a> Sdf<'a> {
         let things = self.things();
         let named = circle.iter().filter_map(|node| things.get(node));
         let names: Vec<&str> = named.map(|thing| self.called(*thing)).collect();
-        let what = match names.len() {
-            // A model that is placed by one of its frames stands at two nodes.
-            0 => "this one is given in itself".to_owned(),
-            1 => format!("{} is given in itself", listed(&names)),
-            _ => format!("{} are each given in the next one", listed(&names)),
-        };
         let first = circle.first().and_then(|node| self.graph.0.get(*node));
         let range = first.map_or(0..0, |node| node.range.clone());
-        Fault::new(range, format!("poses run in a circle: {what}"))
-            .help("give one of them in the model's frame")
+        poses_in_a_circle(range, &names)
     }
 
     /// What a pose is given in. The attribute was called `frame` in versions 1.5 and 1.6, where programs did not heed it: there a name that

@@ -47,8 +47,10 @@ impl Input {
 }
 
 impl Inputs {
-    /// Derivatives below this are what rounding leaves of zero.
-    const NOTHING: f64 = 1e-12;
+    /// Derivatives below this are what rounding leaves of zero: products of a few rotations, known to the rounding of doubles, and of
+    /// levers of up to some thousand metres. One that is truly so small is that of a literal in units of a picometre and less. Which
+    /// literals a number is known by hangs on it; how far it may be off does not, but for this share of what those left out are.
+    const NOTHING: f64 = 4096.0 * f64::EPSILON;
 
     /// Notes that the result changes by `slope` times what `number` changes by. A number that was derived itself passes its own literals
     /// on, and an exact one has nothing to pass on; slopes that are not finite are left out.
@@ -171,6 +173,18 @@ mod tests {
         assert_eq!(slopes(&-&second), slopes(&second));
         assert_eq!(second, Number::one());
         assert_eq!(second.literals().count(), 2);
+    }
+
+    /// A zero that rounding left a lever of a kilometre is none of the literal's; a lever of a nanometre is.
+    #[test]
+    fn what_rounding_leaves_of_a_zero_is_no_slope() {
+        let angle = Number::decimal("0.125").unwrap();
+        for (slope, known) in [(1e3 * f64::EPSILON, 0), (1e-9, 1)] {
+            let mut inputs = Inputs::default();
+            inputs.add(Quantity::Angle, &angle, slope);
+            let found = Number::one().derived_from(inputs);
+            assert_eq!(found.inputs().len(), known, "{slope:e}");
+        }
     }
 
     #[test]

@@ -22,6 +22,24 @@ pub(crate) struct Whole<'a> {
     pub geometry: &'a Geometry<f64>,
 }
 
+/// Why all poses of a part are not asked about, whatever the budget.
+fn unsuited(whole: Whole<'_>, part: &Part) -> Option<&'static str> {
+    let Whole {
+        mechanism,
+        configuration,
+        ..
+    } = whole;
+    if is_too_large(mechanism, part) {
+        return Some("too many joints");
+    }
+    if !numbers_are_exact(mechanism, configuration, part) {
+        return Some("the numbers are rounded");
+    }
+    // The last bits of such doubles mean nothing, and would contradict one another.
+    let computed = numbers(mechanism, part).any(Number::is_full_double);
+    computed.then_some("the numbers are doubles that a program computed")
+}
+
 /// What exact algebra knows of the poses at which a part closes. Each part is asked about once.
 fn known<'k>(
     whole: Whole<'_>,
@@ -31,15 +49,10 @@ fn known<'k>(
 ) -> Option<&'k Closings> {
     let Whole {
         mechanism,
-        configuration,
         geometry,
+        ..
     } = whole;
-    if allowance.each == 0
-        || is_too_large(mechanism, part)
-        || !numbers_are_exact(mechanism, configuration, part)
-        // Of doubles that a program computed the last bits mean nothing, and would contradict one another.
-        || numbers(mechanism, part).any(Number::is_full_double)
-    {
+    if allowance.each == 0 || unsuited(whole, part).is_some() {
         return None;
     }
     if !allowance.closings.contains_key(&part.joints) {
@@ -134,6 +147,9 @@ pub(super) fn everywhere(
     }
     if found.open().is_none() && found.lower() > 0 {
         return Err("not asked: the pose was assembled, and it moves there".to_owned());
+    }
+    if let Some(why) = unsuited(whole, part) {
+        return Err(format!("not asked: {why}"));
     }
     let away = |system: &PolynomialSystem, real: &[RealSolution]| {
         let mut solutions = real.iter();

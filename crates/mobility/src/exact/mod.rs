@@ -123,7 +123,8 @@ pub(super) fn ask_exact(
     }
 }
 
-/// Whether a part's numbers are exact by D13, those of its couplings and of the configuration included.
+/// Whether a part's numbers are exact by D13, those of its couplings included, and the values at which a configuration holds its joints.
+/// Where a joint only begins says nothing about the mechanism: whether the equations hold there is asked of the equations.
 fn numbers_are_exact(
     mechanism: &Mechanism,
     configuration: Option<&Configuration>,
@@ -154,8 +155,12 @@ fn numbers_are_exact(
                 .flat_map(CouplingTerm::factors)
                 .all(chosen)
     });
-    let positions = configuration.iter().flat_map(|c| &c.positions);
-    geometry && couplings && positions.flat_map(|(_, values)| values).all(chosen)
+    let values = configuration.is_none_or(|c| {
+        let counts = |joint: &JointId| part.joints.contains(&joint.0) && !c.free.contains(joint);
+        let mut held = c.positions.iter().filter(|(joint, _)| counts(joint));
+        held.all(|(_, values)| values.iter().all(chosen))
+    });
+    geometry && couplings && values
 }
 
 /// Whether a part has too many joints to be asked about, or the mechanism.

@@ -170,6 +170,38 @@ fn only_exact_numbers_are_asked_about() {
 }
 
 #[test]
+fn starting_values_state_no_digits() {
+    let mut builder = MechanismBuilder::new("two");
+    builder.link("ground");
+    for name in ["p", "q"] {
+        let places = planar(&CRANK_ROCKER);
+        add_ring(
+            &mut builder,
+            name,
+            "ground",
+            &places,
+            [0.0; 3],
+            Written::Exactly,
+        );
+    }
+    let at = |text: &str| vec![("p_a".to_owned(), vec![Number::decimal(text).unwrap()])];
+    builder.configuration("held", at("0.12345"));
+    builder.configuration("hundredths", at("0.12"));
+    builder.configuration_with_starts("begun", Vec::new(), at("0.12345"));
+    let mechanism = builder.build().unwrap();
+    let parts = Structure::new(&mechanism).parts;
+    let joint = mechanism.joint_named("p_a").unwrap().0;
+    let exact = |name: &str, own: bool| {
+        let configuration = mechanism.configuration(name);
+        let part = parts.iter().find(|p| p.joints.contains(&joint) == own);
+        numbers_are_exact(&mechanism, configuration, part.unwrap())
+    };
+    // Held, they are digits of the pose, but not of the other part.
+    assert!(!exact("held", true) && exact("held", false));
+    assert!(exact("hundredths", true) && exact("begun", true));
+}
+
+#[test]
 fn a_part_is_asked_about_alone() {
     let mut builder = MechanismBuilder::new("two");
     builder.link("ground");

@@ -13,8 +13,8 @@
 //! What is more than a few units away to first order is not within the digits.
 
 use super::dimensions::{Dimensions, turns};
+use super::drowned::drowned;
 use super::least_largest::least_largest;
-use super::nearest::drowned;
 use super::poses::Loops;
 use faer::Mat;
 use kutzbach_closure::{Geometry, JointState, linearised};

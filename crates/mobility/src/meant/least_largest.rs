@@ -31,19 +31,47 @@ pub(super) struct LeastLargest {
     pub at_least: f64,
 }
 
-/// The solution of `a z = b` whose largest entry is least, in the sense of least squares and without the equations whose singular value is
-/// below a share of the largest, which is told to `dependent`; `None` where the decomposition fails.
+/// Linear equations with their singular value decomposition, made once for all that is asked of them.
+pub(super) struct Decomposed<'a> {
+    pub matrix: &'a Mat<f64>,
+    pub svd: faer::linalg::solvers::Svd<f64>,
+}
+
+impl<'a> Decomposed<'a> {
+    /// `None` where the decomposition fails.
+    pub fn of(matrix: &'a Mat<f64>) -> Option<Self> {
+        let svd = matrix.thin_svd().ok()?;
+        Some(Self { matrix, svd })
+    }
+
+    /// The solution of `a z = b` whose largest entry is least, in the sense of least squares and without the equations whose singular
+    /// value is below a share of the largest, which is told to `dependent`; `None` where none is found.
+    pub fn least_largest(&self, b: &[f64], dependent: impl Fn(f64) -> f64) -> Option<LeastLargest> {
+        let (u, s, v) = (self.svd.U(), self.svd.S().column_vector(), self.svd.V());
+        let kept = (0..s.nrows())
+            .take_while(|&j| s[j] > dependent(s[0]) * s[0] && s[j] > 0.0)
+            .count();
+        // Orthonormal rows: Vᵀ z = c.
+        let rows = DMatrix::from_fn(v.nrows(), kept, |i, j| v[(i, j)]);
+        let right = DVector::from_fn(kept, |j, _| {
+            (0..b.len()).map(|i| u[(i, j)] * b[i]).sum::<f64>() / s[j]
+        });
+        least_largest_of(&rows, &right)
+    }
+}
+
+/// [`Decomposed::least_largest`] of equations that are asked once; `None` where their decomposition fails, too.
 pub(super) fn least_largest(
     a: &Mat<f64>,
     b: &[f64],
     dependent: impl Fn(f64) -> f64,
 ) -> Option<LeastLargest> {
-    let svd = a.thin_svd().ok()?;
-    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
-    let count = v.nrows();
-    let kept = (0..s.nrows())
-        .take_while(|&j| s[j] > dependent(s[0]) * s[0] && s[j] > 0.0)
-        .count();
+    Decomposed::of(a)?.least_largest(b, dependent)
+}
+
+/// The solution of equations whose rows, the columns of `rows`, are orthonormal.
+fn least_largest_of(rows: &DMatrix<f64>, right: &DVector<f64>) -> Option<LeastLargest> {
+    let (count, kept) = rows.shape();
     let zero = LeastLargest {
         z: vec![0.0; count],
         at_least: 0.0,
@@ -51,11 +79,6 @@ pub(super) fn least_largest(
     if kept == 0 {
         return Some(zero);
     }
-    // Orthonormal rows: Vᵀ z = c.
-    let rows = DMatrix::from_fn(count, kept, |i, j| v[(i, j)]);
-    let right = DVector::from_fn(kept, |j, _| {
-        (0..b.len()).map(|i| u[(i, j)] * b[i]).sum::<f64>() / s[j]
-    });
     let mut weights = vec![1.0; count];
     let mut best = (f64::INFINITY, zero.z);
     let mut at_least = 0.0f64;
@@ -64,8 +87,8 @@ pub(super) fn least_largest(
         let Some(factor) = (rows.transpose() * &scaled).cholesky() else {
             break;
         };
-        let y = factor.solve(&right);
-        let dual = &rows * &y;
+        let y = factor.solve(right);
+        let dual = rows * &y;
         let z: Vec<f64> = dual.iter().zip(&weights).map(|(x, w)| x / w).collect();
         let largest = z.iter().fold(0.0f64, |m, x| x.abs().max(m));
         let sum: f64 = dual.iter().map(|x| x.abs()).sum();
@@ -73,7 +96,7 @@ pub(super) fn least_largest(
             break;
         }
         // No bound exceeds a solution: where it does, or that is none, the weights have become too different for the arithmetic.
-        let solved = (rows.tr_mul(&DVector::from_column_slice(&z)) - &right).norm();
+        let solved = (rows.tr_mul(&DVector::from_column_slice(&z)) - right).norm();
         let bound = right.dot(&y) / sum;
         if solved > ACCURATE * right.norm() || !(bound <= largest * (1.0 + ACCURATE)) {
             break;

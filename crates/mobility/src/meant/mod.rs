@@ -10,6 +10,7 @@
 //! Where several numbers of freedoms are possible, that with the widest gap in the singular values is tried first.
 
 mod dimensions;
+mod drowned;
 mod giving_way;
 mod held_fast;
 mod least_largest;

@@ -448,28 +448,35 @@ fn values_of_a_configuration_count() {
     let hinge = JointBuilder::tree("hinge", JointKind::Revolute, "ground", "arm");
     builder.joint(hinge);
     let angle = &Number::pi() - &negative_power_of_ten(14);
-    builder.configuration("turned", vec![("hinge".to_owned(), vec![angle])]);
+    let turned = vec![("hinge".to_owned(), vec![angle])];
+    builder.configuration("turned", turned.clone());
+    builder.configuration_with_starts("begun", Vec::new(), turned);
     let mechanism = builder.build().unwrap();
     let part = Part {
         joints: vec![0],
         ..Part::default()
     };
     let held = BTreeSet::new();
-    let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
-    let at = |configuration| {
+    let at = |name: &str, moved: f64| {
+        let configuration = mechanism.configuration(name);
+        let geometry = Geometry::new(&mechanism, configuration, &Arithmetic::double());
+        let mut states = geometry.states.clone();
+        states[0].values[0] += moved;
         let pose = Pose {
             mechanism: &mechanism,
             configuration,
             held: &held,
             geometry: &geometry,
-            states: &geometry.states,
-            as_drawn: true,
+            states: &states,
+            as_drawn: moved == 0.0,
             trial: Trial::default(),
         };
         height_at(&pose, &part)
     };
-    assert_eq!(at(None), 0);
-    assert_eq!(at(mechanism.configuration("turned")), 47);
+    assert_eq!(at("none", 0.0), 0);
+    assert_eq!([at("turned", 0.0), at("turned", 0.1)], [47; 2]);
+    // Where the joint only begins counts as long as it stands there.
+    assert_eq!([at("begun", 0.0), at("begun", 0.1)], [47, 0]);
 }
 
 #[test]

@@ -25,7 +25,7 @@
 use super::frame::{Direction, Frame};
 use super::link::Placement;
 use super::model::Mechanism;
-use super::precision::Precisions;
+use super::precision_by_block::Precisions;
 use super::residues::residues;
 use kutzbach_math::number::Number;
 use std::f64::consts::PI;

@@ -10,25 +10,27 @@
 
 use super::Frame;
 
-/// Longer ways than this, in frames, are taken in jumps.
+/// Longer ways than this, in frames, are taken in jumps. Time alone hangs on it: walked or jumped, a way leads to one place but for rounding
+/// (`a_long_way_leads_to_where_a_short_one_does` on both sides of it).
 const LONGEST_WALK: usize = 64;
 
-/// Frames by their index, each given in its parent. The root is its own parent.
+/// Frames by their index, each given in its parent; roots have none.
 ///
 /// ```
 /// # use kutzbach_model as kutzbach;
 /// use kutzbach::mechanism::{Frame, FrameTree};
 /// # fn found() -> Option<()> {
 /// let (up, side) = (Frame::at_point([0.0, 0.0, 3.0])?, Frame::at_point([2.0, 0.0, 0.0])?);
-/// let mut tree = FrameTree::new(vec![0, 0, 0]).ok()?;
+/// let mut tree = FrameTree::new(vec![None, Some(0), Some(0)]).ok()?;
 /// tree.set_frames(vec![Frame::identity(), up.clone(), side.clone()], |chain| Frame::between(&[], chain));
 /// assert_eq!(tree.way(1, 2)?, [[&up], [&side]]);
-/// assert_eq!(FrameTree::new(vec![0, 2, 1]).unwrap_err(), [1, 2]);
+/// assert_eq!(FrameTree::new(vec![None, Some(2), Some(1)]).unwrap_err(), [1, 2]);
 /// # Some(()) }
 /// # assert!(found().is_some());
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct FrameTree {
+    /// A root's own index for a root.
     parents: Vec<usize>,
     /// How many frames are above each one.
     depths: Vec<usize>,
@@ -44,12 +46,16 @@ impl FrameTree {
     /// The tree of these parents, in linear time. All frames are the identity until they are [set](Self::set_frames).
     ///
     /// # Errors
-    /// The indices of frames that run in a circle, each given in the next one. An index that is none counts as a root.
-    pub fn new(parents: Vec<usize>) -> Result<Self, Vec<usize>> {
+    /// The indices of frames that run in a circle, each given in the next one; a frame that is its own parent is one. What is given in an index that no
+    /// frame has counts as a root.
+    pub fn new(mut parents: Vec<Option<usize>>) -> Result<Self, Vec<usize>> {
         let count = parents.len();
-        let known = |(node, parent): (usize, usize)| if parent < count { parent } else { node };
-        let parents: Vec<usize> = parents.into_iter().enumerate().map(known).collect();
+        for parent in &mut parents {
+            *parent = parent.filter(|parent| *parent < count);
+        }
         let depths = depths_of(&parents)?;
+        let own = parents.into_iter().enumerate();
+        let parents: Vec<usize> = own.map(|(node, parent)| parent.unwrap_or(node)).collect();
         let mut tree = Self {
             jumps: parents.clone(),
             frames: vec![Frame::identity(); count],
@@ -214,7 +220,7 @@ impl FrameTree {
 }
 
 /// How many frames are above each one; where they run in a circle, that, each given in the next one.
-fn depths_of(parents: &[usize]) -> Result<Vec<usize>, Vec<usize>> {
+fn depths_of(parents: &[Option<usize>]) -> Result<Vec<usize>, Vec<usize>> {
     let count = parents.len();
     let mut depths: Vec<Option<usize>> = vec![None; count];
     let mut met_by = vec![count; count];
@@ -229,10 +235,10 @@ fn depths_of(parents: &[usize]) -> Result<Vec<usize>, Vec<usize>> {
             }
             met_by[at] = start;
             walk.push(at);
-            if parents[at] == at {
+            let Some(parent) = parents[at] else {
                 break None;
-            }
-            at = parents[at];
+            };
+            at = parent;
         };
         let first = above.map_or(0, |above| above + 1);
         for (depth, node) in (first..).zip(walk.into_iter().rev()) {
@@ -253,8 +259,8 @@ mod tests {
 
     /// A long chain and a branch off each of its frames, each frame a metre from its parent.
     fn comb(teeth: usize) -> FrameTree {
-        let chain = (0..teeth).map(|i: usize| i.saturating_sub(1));
-        let branches = 0..teeth;
+        let chain = (0..teeth).map(|i: usize| i.checked_sub(1));
+        let branches = (0..teeth).map(Some);
         let mut tree = FrameTree::new(chain.chain(branches).collect()).unwrap();
         tree.set_frames(vec![at(1.0); 2 * teeth], |chain| Frame::between(&[], chain));
         tree
@@ -304,10 +310,13 @@ mod tests {
 
     #[test]
     fn circles_and_roots() {
-        assert_eq!(FrameTree::new(vec![0, 3, 1, 2]).unwrap_err(), [1, 3, 2]);
-        assert_eq!(FrameTree::new(vec![0, 2, 3, 2]).unwrap_err(), [2, 3]);
+        let circle = |parents: [Option<usize>; 4]| FrameTree::new(parents.to_vec()).unwrap_err();
+        assert_eq!(circle([None, Some(3), Some(1), Some(2)]), [1, 3, 2]);
+        assert_eq!(circle([None, Some(2), Some(3), Some(2)]), [2, 3]);
+        // One that is given in itself is no root.
+        assert_eq!(circle([None, Some(0), Some(2), Some(7)]), [2]);
         // Two roots have nothing in common.
-        let tree = FrameTree::new(vec![0, 1, 0]).unwrap();
+        let tree = FrameTree::new(vec![None, None, Some(0)]).unwrap();
         assert!(tree.way(2, 1).is_none());
         assert!(tree.way(2, 7).is_none());
         assert_eq!(FrameTree::new(Vec::new()).unwrap().len(), 0);

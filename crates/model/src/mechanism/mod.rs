@@ -32,6 +32,7 @@ mod link;
 mod model;
 mod number_style;
 mod precision;
+mod precision_by_block;
 mod rational_rotations;
 mod replaced;
 mod residues;

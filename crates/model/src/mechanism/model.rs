@@ -5,7 +5,8 @@ use super::constants::Recognised;
 use super::coupling::Coupling;
 use super::joint::Joint;
 use super::link::Link;
-use super::precision::{Precision, Precisions};
+use super::precision::Precision;
+use super::precision_by_block::Precisions;
 use super::scene::{Expectation, Scene};
 use std::collections::BTreeMap;
 

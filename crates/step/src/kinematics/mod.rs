@@ -23,10 +23,12 @@ use links::{Link, Links};
 use std::collections::BTreeMap;
 use written::{Written, names_pair, without_range, word};
 
-/// Frames of a pair that are drawn farther apart (m) are not those of one joint: files have six digits of a metre or more.
+/// Frames of a pair that are drawn farther apart, in metres or in parts of coordinates beyond a metre, are not those of one joint: files have
+/// six digits or more, and a frame is the product of some placements. Both sides of it are safe: within, the file itself says the joint;
+/// beyond, the pair is told as not read, and nothing is joined.
 const APART: f64 = 1e-5;
 
-/// As [`APART`], of directions (rad).
+/// As [`APART`], of directions (rad): levers of a tenth of the size of what they place are known to a tenth as many digits.
 const ASKEW: f64 = 1e-4;
 
 /// What a file says of mechanisms.
@@ -154,7 +156,9 @@ fn frame<'e>(link: &Link<'e>, item: Instance<'e>) -> Result<Pose, StepError> {
 fn stands(motion: &PairMotion, (one, two): &(Pose, Pose)) -> bool {
     let between = one.inverse() * *two;
     let (z, shift) = (between.rotation.column(2).into_owned(), between.translation);
-    let coaxial = z.x.hypot(z.y) <= ASKEW && shift.x.hypot(shift.y) <= APART;
+    let size = one.translation.norm().max(two.translation.norm());
+    let apart = APART * size.max(1.0);
+    let coaxial = z.x.hypot(z.y) <= ASKEW && shift.x.hypot(shift.y) <= apart;
     match motion {
         PairMotion::Gears { .. } => true,
         PairMotion::Screw { .. } => coaxial,
@@ -165,7 +169,7 @@ fn stands(motion: &PairMotion, (one, two): &(Pose, Pose)) -> bool {
             let held = (0..3_usize).filter(|place| translations.get(*place) == Some(&false));
             let near = held
                 .filter_map(|place| shift.get(place))
-                .all(|x| x.abs() <= APART);
+                .all(|x| x.abs() <= apart);
             let turning: Vec<usize> = (0..3_usize)
                 .filter(|place| rotations.get(*place) == Some(&true))
                 .collect();

@@ -41,7 +41,7 @@ mod tests;
 
 pub use joint_builder::JointBuilder;
 
-use super::precision::Precisions;
+use super::precision_by_block::Precisions;
 use super::{
     Entity, Expectation, Frame, Inertial, JointId, Link, Mechanism, MechanismError, Placement,
     Recognised, Scene, Shape,
