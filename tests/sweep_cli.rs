@@ -90,7 +90,7 @@ fn shares_are_the_whole() {
     let mut whole = lines("1/1");
     assert_eq!(whole.len(), 23);
     whole.sort();
-    for of in [2, 5, 40] {
+    for of in [2, 16, 40] {
         let mut shares: Vec<String> = (1..=of)
             .flat_map(|number| lines(&format!("{number}/{of}")))
             .collect();
@@ -135,6 +135,75 @@ fn a_file_that_was_cut_off_is_continued_to_the_same_bytes() {
         done(&asked);
         assert_eq!(text(&fs::read(&file).unwrap()), text(&whole));
     }
+}
+
+/// Killed while it writes, at whatever byte, again and again.
+#[test]
+fn a_sweep_that_was_killed_goes_on_to_the_same_bytes() {
+    let folder = empty_folder("sweep_killed");
+    let [whole, torn] = ["whole.csv", "torn.csv"].map(|name| folder.join(name));
+    let asked = [SPOILED, "--over", "off=0..0.01:1500", "--depth", "rank"];
+    let [into_whole, into_torn] = [&whole, &torn].map(|file| {
+        let into = ["-o", file.to_str().unwrap()];
+        [&asked[..], &into].concat()
+    });
+    done(&into_whole);
+    let length = |file: &Path| fs::metadata(file).map_or(0, |known| known.len());
+    let mut kills = 0;
+    for _ in 0..3 {
+        let before = length(&torn);
+        let mut child = crate::support::program()
+            .arg("sweep")
+            .args(&into_torn)
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .stdin(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        while length(&torn) <= before && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        child.kill().unwrap();
+        kills += usize::from(!child.wait().unwrap().success());
+        assert!(
+            fs::read(&whole)
+                .unwrap()
+                .starts_with(&fs::read(&torn).unwrap())
+        );
+    }
+    assert!(kills > 0, "it was done before it could be killed");
+    done(&into_torn);
+    assert_eq!(
+        text(&fs::read(&torn).unwrap()),
+        text(&fs::read(&whole).unwrap())
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_without_space_is_told() {
+    let asked = [SPOILED, "--over", "off=0..0.01:5", "--depth", "rank"];
+    let output = sweep(&[&asked[..], &["-o", "/dev/full"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let stderr = text(&output.stderr);
+    assert!(stderr.contains("cannot write `/dev/full`"), "{stderr}");
+    let full = fs::OpenOptions::new()
+        .write(true)
+        .open("/dev/full")
+        .unwrap();
+    let output = crate::support::program()
+        .arg("sweep")
+        .args(asked)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdout(full)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let stderr = text(&output.stderr);
+    assert!(
+        stderr.contains("cannot write to standard output"),
+        "{stderr}"
+    );
 }
 
 /// How many bytes the last line has, with its line break, less one.

@@ -2,6 +2,7 @@
 
 use crate::support::folder;
 use kutzbach::format::{ReadOptions, Template, file_bytes, read_bytes_of, read_file_with};
+use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, Depth, analyse};
 use kutzbach::sweep::{
     Facts, Family, MeasuredFile, Outcome, Over, Plan, Sample, Shard, Status, outcome,
@@ -32,7 +33,7 @@ fn options(name: &str, value: &str) -> ReadOptions {
 
 #[test]
 fn a_template_reads_what_the_file_is_read_as() {
-    let mut parsed = 0;
+    let [mut parsed, mut varied] = [0; 2];
     for (file, name, values) in FAMILIES {
         let path = folder("mechanisms").join(format!("{file}.urdf"));
         let bytes = file_bytes(&path).unwrap();
@@ -44,14 +45,17 @@ fn a_template_reads_what_the_file_is_read_as() {
             let asked = options(name, value);
             let read = template.read(&asked.settings);
             let own = read_file_with(&path, &asked);
-            assert_eq!(
-                format!("{read:?}"),
-                format!("{own:?}"),
-                "{file}: {name}={value}"
-            );
+            let place = format!("{file}: {name}={value}");
+            assert_eq!(format!("{read:?}"), format!("{own:?}"), "{place}");
+            let look = |mechanism: &Mechanism| format!("{mechanism:?}");
+            if let Some(mechanism) = template.with_varied(&asked.settings, look) {
+                assert_eq!(mechanism, look(&own.unwrap().mechanism), "{place}");
+                varied += 1;
+            }
         }
     }
     assert_eq!(parsed, FAMILIES.len());
+    assert!(varied > 15, "{varied} have all but numbers in common");
 }
 
 /// What a row has of an analysis.
@@ -190,12 +194,16 @@ fn of_text(text: &str, file: &str, asked: &AnalysisOptions) -> Outcome {
 
 #[test]
 fn members_at_random_are_in_every_field_what_files_of_their_own_are() {
-    let bennett = folder("mechanisms").join("bennett_isogram.urdf");
-    let bennett = std::fs::read_to_string(bennett).unwrap();
+    let text = |path: &str| std::fs::read_to_string(folder(path)).unwrap();
+    let bennett = text("mechanisms/bennett_isogram.urdf");
+    let [six_legs, robot] =
+        ["six_legs", "robot"].map(|name| text(&format!("benches/families/{name}.urdf")));
     let families = [
-        (FOUR_BAR, ["a=0.5..3", "b=0.5..5", "c=0.5..5"]),
-        (SLIDER_CRANK, ["a=0.5..3", "b=0.5..5", "e=0..2"]),
-        (bennett.as_str(), ["p=0.5..3", "q=0.5..3", "h=0.1..1"]),
+        (FOUR_BAR, &["a=0.5..3", "b=0.5..5", "c=0.5..5"][..]),
+        (SLIDER_CRANK, &["a=0.5..3", "b=0.5..5", "e=0..2"]),
+        (bennett.as_str(), &["p=0.5..3", "q=0.5..3", "h=0.1..1"]),
+        (six_legs.as_str(), &["foot=0.1..0.5"]),
+        (robot.as_str(), &["crank=0.01..0.1", "rod=0.2..0.4"]),
     ];
     let asked = AnalysisOptions {
         depth: Depth::Motions,
@@ -203,9 +211,9 @@ fn members_at_random_are_in_every_field_what_files_of_their_own_are() {
     };
     let mut seen = Vec::new();
     for (text, over) in families {
-        let over = over.map(|own| Over::read(own).unwrap());
+        let over = over.iter().map(|own| Over::read(own).unwrap());
         let sample = Sample::read("random:50").unwrap();
-        let plan = Plan::new(over.to_vec(), Some(sample)).unwrap();
+        let plan = Plan::new(over.collect(), Some(sample)).unwrap();
         let source = MeasuredFile::of_text(text, "own.urdf");
         let family = Family::new(source, plan, asked.clone()).unwrap();
         let names: Vec<&str> = family.plan().names().collect();

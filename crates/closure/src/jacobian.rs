@@ -6,7 +6,6 @@ use super::equations::Equations;
 use super::geometry::{Geometry, Uncertainty};
 use kutzbach_math::matrix::{MatrixError, Real, SparseMatrix};
 use kutzbach_model::mechanism::{FreedomPart, Mechanism};
-use std::collections::HashMap;
 
 /// A part of a mechanism whose equations stand alone: some joints, the cycles through them, the couplings between them.
 #[derive(Clone, Debug, Default)]
@@ -76,6 +75,20 @@ pub fn jacobian<R: Real>(
     Equations::at(mechanism, geometry, states, part)?.linearised(geometry, part)
 }
 
+/// The value of every equation of a part at given joint states, as in [`CycleJacobian::residual`]: without their derivative, for half of
+/// the work.
+///
+/// # Errors
+/// As [`jacobian`], but for screws.
+pub fn residual<R: Real>(
+    mechanism: &Mechanism,
+    geometry: &Geometry<R>,
+    states: &[JointState<R>],
+    part: &Part,
+) -> Result<Vec<R>, MatrixError> {
+    Ok(Equations::at(mechanism, geometry, states, part)?.residual)
+}
+
 /// [`jacobian`] of a geometry that may differ from any mechanism's, as where a joint is relaxed to see what that would do.
 pub fn linearised<R: Real>(
     geometry: &Geometry<R>,
@@ -97,30 +110,44 @@ impl<R: Real> Equations<R> {
     ) -> Result<CycleJacobian<R>, MatrixError> {
         let one = &geometry.one;
         let freedoms = |joint: usize| geometry.displacements[joint].kind().freedoms();
-        let mut first_column = HashMap::with_capacity(part.joints.len());
+        let mut first_columns = Vec::with_capacity(part.joints.len());
         let mut variables = Vec::new();
         for &joint in &part.joints {
-            first_column.insert(joint, variables.len());
+            first_columns.push((joint, variables.len()));
             variables.extend((0..freedoms(joint).len()).map(|variable| (joint, variable)));
         }
+        first_columns.sort_unstable();
+        let first_column = |joint: usize| {
+            let at = first_columns.binary_search_by_key(&joint, |own| own.0);
+            Some(first_columns.get(at.ok()?)?.1)
+        };
         let entries: usize = self.walks.iter().map(|w| 6 * w.screw_count()).sum();
         let mut triplets = Vec::with_capacity(entries);
         for (index, walk) in self.walks.iter().enumerate() {
+            let mut columns = Vec::with_capacity(walk.screw_count());
             for joint in &walk.joints {
-                let Some(&first) = first_column.get(&joint.joint) else {
+                let Some(first) = first_column(joint.joint) else {
                     continue;
                 };
                 for (variable, screw) in joint.screws.iter().enumerate() {
                     let part = freedoms(joint.joint)[variable];
-                    let unit = one.constant(variable_unit(part, self.length));
-                    for (row, entry) in walk.column(joint, screw).into_iter().enumerate() {
-                        let entry = if part == FreedomPart::Translation {
-                            entry * unit.clone()
-                        } else {
-                            entry
-                        };
-                        triplets.push((6 * index + row, first + variable, entry));
+                    let mut column = walk.column(joint, screw);
+                    if part == FreedomPart::Translation {
+                        let unit = one.constant(variable_unit(part, self.length));
+                        column = column.map(|entry| entry * unit.clone());
                     }
+                    columns.push((first + variable, column.into_iter()));
+                }
+            }
+            // Row by row and in order, as the matrix keeps them, they need no sorting there.
+            columns.sort_by_key(|(column, _)| *column);
+            for row in 0..6 {
+                for (column, entries) in &mut columns {
+                    triplets.extend(
+                        entries
+                            .next()
+                            .map(|entry| (6 * index + row, *column, entry)),
+                    );
                 }
             }
         }
@@ -131,7 +158,7 @@ impl<R: Real> Equations<R> {
         for (index, row) in (of_cycles..).zip(self.coupling_rows) {
             coupling_higher.push(row.higher);
             for (joint, weight) in row.weights {
-                if let Some(&first) = first_column.get(&joint) {
+                if let Some(first) = first_column(joint) {
                     triplets.push((index, first, weight));
                 }
             }

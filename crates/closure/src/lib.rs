@@ -41,7 +41,7 @@ pub use displacement::Factor;
 pub use displacement::{JointDisplacement, JointState};
 pub use geometry::{Arithmetic, Geometry, Uncertainty, least_length};
 pub use jacobian::stated_by;
-pub use jacobian::{CycleJacobian, Part, entry_accuracy, jacobian, rounding_of};
+pub use jacobian::{CycleJacobian, Part, entry_accuracy, jacobian, residual, rounding_of};
 pub use jacobian::{linearised, variable_unit};
 pub use joint_numbers::JointNumbers;
 pub use kutzbach_math::space::{

@@ -3,7 +3,7 @@
 //! Definitions may name each other in any order. Each is evaluated once; a definition that needs itself is an error.
 //! Properties and arguments have separate names, as in xacro: `${a}` is a property, `$(arg a)` an argument.
 
-use super::element::{Attribute, Element};
+use super::element::{Attribute, Element, Owner};
 use super::error::{Fault, MOST_FAULTS, Outcome};
 use super::number_text::{self, Names, Trouble, is_identifier};
 use super::words::{did_you_mean, quoted};
@@ -68,8 +68,38 @@ impl<'a> Definitions<'a> {
         self.all.is_empty()
     }
 
+    /// Reads the definitions among the children of the root element and evaluates them, with settings and names that stay symbolic.
+    pub(super) fn read(
+        &mut self,
+        root: Element<'a>,
+        children: &[Element<'a>],
+        settings: &'a [(String, String)],
+        symbolic: &'a [String],
+    ) -> Result<(), Vec<Fault>> {
+        let mut faults = Vec::new();
+        for child in children {
+            if child.owner(root.namespace()) == Owner::Xacro {
+                faults.extend(self.add(*child).err());
+            }
+        }
+        faults.truncate(MOST_FAULTS);
+        for (name, text) in settings {
+            faults.extend(self.set(name, text, root.range()).err());
+        }
+        for name in symbolic {
+            faults.extend(self.keep_symbolic(name, root.range()).err());
+        }
+        if faults.is_empty() {
+            faults = self.evaluate_all();
+        }
+        match faults.is_empty() {
+            true => Ok(()),
+            false => Err(faults),
+        }
+    }
+
     /// Adds a definition if the element, known to be `xacro:`, is one.
-    pub(super) fn add(&mut self, element: Element<'a>) -> Outcome<()> {
+    fn add(&mut self, element: Element<'a>) -> Outcome<()> {
         let (sort, value) = match element.name() {
             "property" => (Sort::Property, "value"),
             "arg" => (Sort::Argument, "default"),
@@ -120,7 +150,7 @@ impl<'a> Definitions<'a> {
     }
 
     /// Overrides the arguments and properties of a name; a name that the file does not define is an error about its root.
-    pub(super) fn set(&mut self, name: &str, text: &'a str, root: Range<usize>) -> Outcome<()> {
+    fn set(&mut self, name: &str, text: &'a str, root: Range<usize>) -> Outcome<()> {
         let mut found = false;
         for sort in [Sort::Property, Sort::Argument] {
             if let Some(index) = self.by_name.get(&(sort, name)) {
@@ -146,7 +176,7 @@ impl<'a> Definitions<'a> {
 
     /// Keeps the properties and arguments of a name symbolic; a name that the file does not define is an error about its
     /// root.
-    pub(super) fn keep_symbolic(&mut self, name: &'a str, root: Range<usize>) -> Outcome<()> {
+    fn keep_symbolic(&mut self, name: &'a str, root: Range<usize>) -> Outcome<()> {
         if self.all.iter().any(|definition| definition.name == name) {
             self.symbolic.insert(name);
             return Ok(());
@@ -172,7 +202,7 @@ impl<'a> Definitions<'a> {
     }
 
     /// Evaluates every definition, used or not.
-    pub(super) fn evaluate_all(&mut self) -> Vec<Fault> {
+    fn evaluate_all(&mut self) -> Vec<Fault> {
         let mut faults: Vec<Fault> = Vec::new();
         for index in 0..self.all.len() {
             if let Err(fault) = self.evaluate(index) {

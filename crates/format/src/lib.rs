@@ -75,6 +75,7 @@ mod reader;
 mod relax;
 mod restated;
 mod sdf;
+mod skeleton;
 mod sketch;
 mod step;
 mod template;
@@ -348,14 +349,21 @@ fn read_plain(
 }
 
 /// A reading with its decimals understood as the options say.
-fn understood(mut reading: Reading, options: &ReadOptions) -> Reading {
+fn understood(reading: Reading, options: &ReadOptions) -> Reading {
+    Reading {
+        mechanism: with_decimals_understood(reading.mechanism, options),
+        ..reading
+    }
+}
+
+fn with_decimals_understood(mut mechanism: Mechanism, options: &ReadOptions) -> Mechanism {
     if !options.literal {
-        reading.mechanism = reading.mechanism.with_constants_known_to(options.precision);
+        mechanism = mechanism.with_constants_known_to(options.precision);
     }
     if let Some(uncertainty) = options.precision {
-        reading.mechanism = reading.mechanism.with_precision(uncertainty);
+        mechanism = mechanism.with_precision(uncertainty);
     }
-    reading
+    mechanism
 }
 
 /// Reads the text of a robot, after expanding what it says in xacro, with what another file adds to it.

@@ -15,9 +15,11 @@ use super::unread::{Parts, Tally, Unread};
 use super::words::{alternatives, cut, did_you_mean};
 use super::{ReadOptions, Reading, Skipped, Warning, WarningKind, relax, xml};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Entity, Frame, JointBuilder, JointKind, MechanismBuilder};
+use kutzbach_model::mechanism::{
+    Entity, Frame, JointBuilder, JointKind, Mechanism, MechanismBuilder,
+};
 use roxmltree::Document;
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
@@ -110,6 +112,8 @@ pub(super) struct Reader<'a> {
     pub(super) ground: Option<Range<usize>>,
     scene: Option<Range<usize>>,
     expectation: Option<Range<usize>>,
+    /// Where expressions are to stay open, how many have been read.
+    pub(super) open: Option<&'a Cell<usize>>,
 }
 
 /// Reads a text, with what another file adds to it; faults are unsorted. A text that was expanded from xacro comes with the numbers that
@@ -142,9 +146,7 @@ pub(super) fn read_parsed<'a>(
     expanded: Option<&'a [Number]>,
     added: &Added,
 ) -> Result<Reading, Vec<Fault>> {
-    let one = |fault| vec![fault];
     let root = Element::root(document, text);
-    check_root(root).map_err(one)?;
     let mut reader = Reader::new(root);
     for (at, message) in notes {
         reader.warn_of(at, WarningKind::NotXml, message);
@@ -152,47 +154,20 @@ pub(super) fn read_parsed<'a>(
     if let Some(numbers) = expanded {
         reader.definitions.numbers = numbers;
     }
-    reader
-        .attributes_of(root, &["name", "version"], true)
-        .map_err(one)?;
-    reader.skip_text(root);
-    let children: Vec<Element<'_>> = root.elements().collect();
-    reader.read_definitions(root, &children, &options.settings, &options.symbolic)?;
+    reader.read_root(text, options, added)
+}
 
-    let mut faults = Vec::new();
-    for child in children {
-        if let Err(fault) = reader.read_child(child) {
-            faults.push(fault);
-            if faults.len() == MOST_FAULTS {
-                break;
-            }
-        }
-    }
-    reader.add(added);
-    if faults.is_empty() {
-        reader.find_world();
-        faults = reader.read_late_joints();
-        faults.extend(reader.read_connects());
-        faults.extend(reader.read_other_mimics());
-    }
-    if faults.is_empty() {
-        faults = reader.directory.unresolved();
-    }
-    reader.add_world();
-    reader.float_roots();
-    reader.note_tree();
-    reader.resolve_motors();
-    reader.note_closing_frames();
-    reader.tell_assumed(options.literal);
-    reader.note_equalities();
-    reader.note_mentions();
-    if options.strict {
-        faults.extend(reader.unread.faults(text));
-    }
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    reader.finish(text, root)
+/// Reads a text that is parsed with parameters in place of the values of expressions, named by their texts, and counts these.
+pub(super) fn read_open<'a>(
+    document: &'a Document<'a>,
+    text: &'a str,
+    options: &'a ReadOptions,
+    count: &'a Cell<usize>,
+) -> Result<Mechanism, Vec<Fault>> {
+    let mut reader = Reader::new(Element::root(document, text));
+    reader.open = Some(count);
+    let reading = reader.read_root(text, options, &Added::default())?;
+    Ok(reading.mechanism)
 }
 
 fn check_root(root: Element<'_>) -> Outcome<()> {
@@ -257,40 +232,63 @@ impl<'a> Reader<'a> {
             ground: None,
             scene: None,
             expectation: None,
+            open: None,
         }
     }
 
-    pub(super) fn read_definitions(
-        &mut self,
-        root: Element<'a>,
-        children: &[Element<'a>],
-        settings: &'a [(String, String)],
-        symbolic: &'a [String],
-    ) -> Result<(), Vec<Fault>> {
-        let mut faults = Vec::new();
-        for child in children {
-            if child.owner(self.root_namespace) == Owner::Xacro {
-                faults.extend(self.definitions.add(*child).err());
-            }
-        }
-        faults.truncate(MOST_FAULTS);
-        for (name, text) in settings {
-            faults.extend(self.definitions.set(name, text, root.range()).err());
-        }
-        for name in symbolic {
-            faults.extend(self.definitions.keep_symbolic(name, root.range()).err());
-        }
-        if faults.is_empty() {
-            faults = self.definitions.evaluate_all();
-        }
+    fn read_root(
+        mut self,
+        text: &str,
+        options: &'a ReadOptions,
+        added: &Added,
+    ) -> Result<Reading, Vec<Fault>> {
+        let one = |fault| vec![fault];
+        let root = self.root;
+        check_root(root).map_err(one)?;
+        self.attributes_of(root, &["name", "version"], true)
+            .map_err(one)?;
+        self.skip_text(root);
+        let children: Vec<Element<'_>> = root.elements().collect();
+        let (settings, symbolic) = (&options.settings, &options.symbolic);
+        self.definitions.read(root, &children, settings, symbolic)?;
         if !self.definitions.is_empty() {
             self.uses(Dialect::Own);
         }
-        if faults.is_empty() {
-            Ok(())
-        } else {
-            Err(faults)
+
+        let mut faults = Vec::new();
+        for child in children {
+            if let Err(fault) = self.read_child(child) {
+                faults.push(fault);
+                if faults.len() == MOST_FAULTS {
+                    break;
+                }
+            }
         }
+        self.add(added);
+        if faults.is_empty() {
+            self.find_world();
+            faults = self.read_late_joints();
+            faults.extend(self.read_connects());
+            faults.extend(self.read_other_mimics());
+        }
+        if faults.is_empty() {
+            faults = self.directory.unresolved();
+        }
+        self.add_world();
+        self.float_roots();
+        self.note_tree();
+        self.resolve_motors();
+        self.note_closing_frames();
+        self.tell_assumed(options.literal);
+        self.note_equalities();
+        self.note_mentions();
+        if options.strict {
+            faults.extend(self.unread.faults(text));
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        self.finish(text, root)
     }
 
     fn read_child(&mut self, child: Element<'a>) -> Outcome<()> {

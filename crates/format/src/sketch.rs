@@ -87,7 +87,7 @@ fn read(text: &str, settings: &[(String, String)]) -> Result<NamedSketch, Vec<Fa
     root.only_attributes(&["name"]).map_err(one)?;
     let children = root.children().map_err(one)?;
     let mut reader = Reader::new(root);
-    reader.read_definitions(root, &children, settings, &[])?;
+    reader.definitions.read(root, &children, settings, &[])?;
     let mut parts = Parts::default();
     // Constraints may stand before what they name, and circles before their centres.
     let (drawn, stated): (Vec<Element<'_>>, Vec<Element<'_>>) = children

@@ -141,6 +141,10 @@ impl<'a> Reader<'a> {
         // Most numbers of most files are 0 and 1: read once, then shared. So are expressions: by the time elements are read
         // every definition has its value, so that the same text means the same number throughout.
         let is_short = token.len() <= LONGEST_SHARED;
+        let open = self.open.filter(|_| token.contains('$'));
+        if let Some(count) = open {
+            count.set(count.get() + 1);
+        }
         if let Some(number) = self.literals.get(token).filter(|_| is_short) {
             return Ok(number.clone());
         }
@@ -152,6 +156,10 @@ impl<'a> Reader<'a> {
             let message = "the number is too large; the largest accepted is 1e100";
             return Err(Fault::new(place(0..token.len()), message));
         }
+        let number = match open {
+            Some(_) => Number::parameter(token, number),
+            None => number,
+        };
         if is_short && self.literals.len() < MOST_SHARED {
             self.literals.insert(token, number.clone());
         }

@@ -1,11 +1,14 @@
 //! The analysis of a mechanism at one pose: as stated, and completed by what rounded numbers were meant to be.
 
 use super::analysis::Analysis;
-use super::as_stated::analyse_as_stated;
+use super::as_stated::analyse_as_stated_within;
 use super::meant::completed;
 use super::options::{AnalysisError, AnalysisOptions};
 use super::vocabulary::Verdict;
+use kutzbach_closure::Structure;
+use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::Mechanism;
+use std::sync::Arc;
 
 /// Analyses a mechanism: counts, assembles, ranks, names what is locked and redundant.
 ///
@@ -15,7 +18,47 @@ pub fn analyse(
     mechanism: &Mechanism,
     options: &AnalysisOptions,
 ) -> Result<Analysis, AnalysisError> {
-    let stated = analyse_as_stated(mechanism, options)?;
+    analyse_within(mechanism, &Arc::new(Structure::new(mechanism)), options)
+}
+
+/// [`analyse`] of a mechanism whose structure is known, as that is common to mechanisms that differ in the numbers of their joints only.
+///
+/// ```
+/// # mod kutzbach { pub use kutzbach_mobility as mobility; pub use kutzbach_model::mechanism; pub use kutzbach_math::number; }
+/// use kutzbach::mechanism::{JointBuilder, JointKind, MechanismBuilder};
+/// use kutzbach::mobility::{AnalysisOptions, Structure, analyse_within};
+/// use kutzbach::number::Number;
+/// use std::sync::Arc;
+///
+/// let mut builder = MechanismBuilder::new("door");
+/// builder.link("frame").link("leaf");
+/// builder.joint(JointBuilder::tree("hinge", JointKind::Revolute, "frame", "leaf"));
+/// let door = builder.build()?;
+/// let structure = Arc::new(Structure::new(&door));
+/// for width in 1..4 {
+///     let wider = door.clone().with_joint_numbers([(0, 0, Number::integer(width))]);
+///     let analysis = analyse_within(&wider, &structure, &AnalysisOptions::default())?;
+///     assert_eq!(analysis.mobility.finite(), Some(1));
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`analyse`]; [`AnalysisError::OutOfRange`] where the structure has another number of joints.
+pub fn analyse_within(
+    mechanism: &Mechanism,
+    structure: &Arc<Structure>,
+    options: &AnalysisOptions,
+) -> Result<Analysis, AnalysisError> {
+    let (expected, found) = (mechanism.joints().len(), structure.graph.edge_count());
+    if found != expected {
+        return Err(AnalysisError::OutOfRange(MatrixError::Length {
+            what: "joints of the structure",
+            expected,
+            found,
+        }));
+    }
+    let stated = analyse_as_stated_within(mechanism, structure, options)?;
     let analysis = completed(mechanism, options, stated)?;
     let undecided = analysis.mobility.verdict == Verdict::Undecided && analysis.assembly.closed;
     let Some(tolerance) = options.closure_tolerance.filter(|_| undecided) else {
@@ -28,7 +71,8 @@ pub fn analyse(
         closure_tolerance: None,
         ..options.clone()
     };
-    let mut meant = completed(&coarse, &options, analyse_as_stated(&coarse, &options)?)?;
+    let stated = analyse_as_stated_within(&coarse, structure, &options)?;
+    let mut meant = completed(&coarse, &options, stated)?;
     if let Some(nominal) = &mut meant.mobility.nominal {
         nominal.known_to = Some(tolerance);
     }

@@ -36,8 +36,8 @@ pub struct HomeFreedom {
 /// The analysis of a mechanism at a pose. What its [`Depth`](crate::Depth) leaves out is empty or `None`, as said field by field.
 #[derive(Clone, Debug)]
 pub struct Analysis {
-    /// Topology.
-    pub structure: Structure,
+    /// Topology. Clones share it, and so do mechanisms that differ in numbers only ([`analyse_within`](crate::analyse_within)).
+    pub structure: Arc<Structure>,
     /// Kutzbach's count.
     pub kutzbach: i64,
     /// The count at random geometry; `None` unless [`Depth::Everything`](crate::Depth::Everything) is asked for.
@@ -89,7 +89,7 @@ impl Analysis {
     /// Before anything is known of the pose.
     pub(super) fn unranked(
         mechanism: &Mechanism,
-        structure: Structure,
+        structure: Arc<Structure>,
         generic: Option<GenericCount>,
         assembly: Assembly,
         geometry: Arc<Geometry<f64>>,

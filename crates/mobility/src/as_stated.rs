@@ -37,6 +37,15 @@ pub(super) fn analyse_as_stated(
     mechanism: &Mechanism,
     options: &AnalysisOptions,
 ) -> Result<Analysis, AnalysisError> {
+    analyse_as_stated_within(mechanism, &Arc::new(Structure::new(mechanism)), options)
+}
+
+/// [`analyse_as_stated`] of a mechanism whose structure is known.
+pub(super) fn analyse_as_stated_within(
+    mechanism: &Mechanism,
+    structure: &Arc<Structure>,
+    options: &AnalysisOptions,
+) -> Result<Analysis, AnalysisError> {
     let configuration = match &options.configuration {
         None => None,
         Some(name) => Some(mechanism.configuration(name).ok_or_else(|| {
@@ -52,10 +61,9 @@ pub(super) fn analyse_as_stated(
         .map(|joint| joint.0)
         .filter(|&joint| mechanism.joints()[joint].freedom() > 0)
         .collect();
-    let structure = Structure::new(mechanism);
     let everything = options.depth == Depth::Everything;
     let generic = everything
-        .then(|| generic_count(mechanism, &structure))
+        .then(|| generic_count(mechanism, structure))
         .transpose()?;
     let geometry = Arc::new(Geometry::new(
         mechanism,
@@ -84,8 +92,8 @@ pub(super) fn analyse_as_stated(
             solved(whole, part, states, &mut allowance.borrow_mut())
         })
     };
-    let ranked = |assembly: Assembly, structure: Structure| -> Result<Analysis, AnalysisError> {
-        let drawn = Arc::clone(&geometry);
+    let ranked = |assembly: Assembly| -> Result<Analysis, AnalysisError> {
+        let (structure, drawn) = (Arc::clone(structure), Arc::clone(&geometry));
         let mut analysis = Analysis::unranked(mechanism, structure, generic, assembly, drawn);
         if analysis.assembly.closed {
             let mut allowance = allowance.borrow_mut();
@@ -93,14 +101,13 @@ pub(super) fn analyse_as_stated(
         }
         Ok(analysis)
     };
-    let analysis = ranked(assembled(&structure.parts, false)?, structure)?;
+    let analysis = ranked(assembled(&structure.parts, false)?)?;
     let elsewhere = allowance.borrow().elsewhere;
     if !elsewhere {
         return Ok(analysis);
     }
     // What closes within rounding only closes nowhere, or at another pose.
-    let structure = analysis.structure;
-    ranked(assembled(&structure.parts, true)?, structure)
+    ranked(assembled(&structure.parts, true)?)
 }
 
 /// How an engine asks all engines again.

@@ -93,7 +93,7 @@ mod without_body;
 
 pub use actuation::{Actuation, DependentInput, Follower, Freedom, actuation};
 pub use advice::{Advice, advice_for_part};
-pub use analyse::analyse;
+pub use analyse::{analyse, analyse_within};
 pub use analysis::{Analysis, HomeFreedom};
 pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion, Tangent};
 pub use branch_facts::{BranchFacts, branch_facts};

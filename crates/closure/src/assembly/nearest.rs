@@ -13,7 +13,7 @@
 //! taken back, and the equations are closed again. A step counts only if the pose closes afterwards and is nearer.
 
 use super::super::displacement::JointState;
-use super::super::jacobian::{jacobian, variable_unit};
+use super::super::jacobian::{residual, variable_unit};
 use super::descent::{
     Effort, Kept, PartOutcome, Task, advance, descend, largest, movable_columns, step,
 };
@@ -160,8 +160,8 @@ pub(super) fn commensurate(
     work: &mut f64,
 ) -> Result<PartOutcome, MatrixError> {
     let gap = {
-        let drawn = jacobian(task.mechanism, task.geometry, reference, task.part)?;
-        largest(&drawn.residual)
+        let drawn = residual(task.mechanism, task.geometry, reference, task.part)?;
+        largest(&drawn)
     };
     let first = distance(task, reference, states, &outcome);
     if !(first > COMMENSURATE * gap) || task.part.joints.is_empty() {
@@ -226,8 +226,8 @@ pub(super) fn second_order(
     if !(gap > CLEAR * outcome.rounding) {
         return Ok(None);
     }
-    let drawn = jacobian(task.mechanism, task.geometry, reference, task.part)?;
-    let farthest = COMMENSURATE * gap.max(largest(&drawn.residual)).sqrt();
+    let drawn = residual(task.mechanism, task.geometry, reference, task.part)?;
+    let farthest = COMMENSURATE * gap.max(largest(&drawn)).sqrt();
     let as_found = Kept::of(task.part, states);
     let mut nearest: Option<(f64, Kept<f64>, PartOutcome)> = None;
     for factor in std::iter::once(0.0).chain(BESIDE) {

@@ -68,8 +68,8 @@ pub use modular::{Field61, ModularFactorization, factor_modular, modular_rank};
 pub use null_space::{NullVectors, null_basis, null_vectors, null_vectors_by_qr};
 pub use random::SplitMix64;
 pub use rank::{
-    CLEARANCE, Method, ROUNDINGS, RankDecision, decide, decide_by_qr, decide_by_singular_values,
-    decide_each, relative_singular_values,
+    CLEARANCE, Method, ROUNDINGS, RankDecision, Ranks, decide, decide_by_qr,
+    decide_by_singular_values, decide_each, relative_singular_values,
 };
 pub use real::{Real, Ring};
 pub use sparse::SparseMatrix;

@@ -180,14 +180,39 @@ pub fn decide_each<R: Real>(
     matrix: &SparseMatrix<R>,
     accuracies: &[f64],
 ) -> Result<Vec<RankDecision>, MatrixError> {
-    if is_small(matrix) {
-        let values = RelativeValues::of(matrix)?;
-        return accuracies
-            .iter()
-            .map(|&a| values.decide(matrix, a))
-            .collect();
+    let ranks = Ranks::of(matrix)?;
+    accuracies.iter().map(|&a| ranks.decide(a)).collect()
+}
+
+/// A matrix whose rank is decided for one accuracy after another, as [`decide`] does: of a small one at the cost of one decision.
+#[derive(Debug)]
+pub struct Ranks<'m, R> {
+    matrix: &'m SparseMatrix<R>,
+    /// Of a small matrix.
+    values: Option<RelativeValues>,
+}
+
+impl<'m, R: Real> Ranks<'m, R> {
+    /// Those of a matrix.
+    ///
+    /// # Errors
+    /// As [`decide`].
+    pub fn of(matrix: &'m SparseMatrix<R>) -> Result<Self, MatrixError> {
+        let values = is_small(matrix).then(|| RelativeValues::of(matrix));
+        let values = values.transpose()?;
+        Ok(Self { matrix, values })
     }
-    accuracies.iter().map(|&a| decide(matrix, a)).collect()
+
+    /// The rank of entries that are uncertain by `accuracy`.
+    ///
+    /// # Errors
+    /// As [`decide`].
+    pub fn decide(&self, accuracy: f64) -> Result<RankDecision, MatrixError> {
+        match &self.values {
+            Some(values) => values.decide(self.matrix, accuracy),
+            None => decide(self.matrix, accuracy),
+        }
+    }
 }
 
 /// [`decide`] by singular values whatever the size.
@@ -202,6 +227,7 @@ pub fn decide_by_singular_values<R: Real>(
 }
 
 /// All singular values of a matrix.
+#[derive(Debug)]
 struct RelativeValues {
     /// The largest, absolute, cut off at the largest double.
     largest: f64,

@@ -291,12 +291,15 @@ impl<R: Real> SparseMatrix<R> {
     pub fn largest_entry(&self) -> Result<f64, MatrixError> {
         interruption::look()?;
         let mut largest = 0.0f64;
-        for (row, column, value) in self.triplets() {
-            let size = Real::to_f64(&value.abs());
-            if !size.is_finite() {
-                return Err(MatrixError::NotFinite { row, column });
+        for row in 0..self.rows {
+            for (column, value) in self.row(row) {
+                let size = Real::to_f64(&value.abs());
+                if !size.is_finite() {
+                    let column = *column;
+                    return Err(MatrixError::NotFinite { row, column });
+                }
+                largest = largest.max(size);
             }
-            largest = largest.max(size);
         }
         Ok(largest)
     }

@@ -9,9 +9,9 @@ use crate::more_digits::MoreDigits;
 use crate::rounded::{OtherRank, if_rounded};
 use crate::tree_bound::most_by_joints;
 use faer::Mat;
-use kutzbach_closure::{CycleJacobian, Part, jacobian};
+use kutzbach_closure::{CycleJacobian, Part, residual};
 use kutzbach_math::matrix::{
-    CLEARANCE, DENSE_COLUMNS, MatrixError, Method, RankDecision, Real, SparseMatrix, decide,
+    CLEARANCE, DENSE_COLUMNS, MatrixError, Method, RankDecision, Ranks, Real, SparseMatrix, decide,
 };
 
 /// A part of more unknowns is not ranked in many digits, which would take minutes: it stays undecided.
@@ -79,16 +79,17 @@ impl<'a> Readings<'a> {
             false => 0.0,
         };
         let shift = 2.0 * standing.shift;
-        let nominal = decide_twice(&matrix, stated + rounding + shift, poorer)?;
+        let ranks = Ranks::of(&matrix)?;
+        let nominal = decide_twice(&ranks, stated + rounding + shift, poorer)?;
         let mut nominal = full_within(nominal, stated, rounding + poorer + shift);
         let coarse = (coarse && nominal.rank.is_none()).then_some(nominal.candidates);
         if coarse.is_some() {
             // Numbers so coarse that they would leave every rank open were chosen, not rounded.
             stated = 0.0;
-            nominal = decide_twice(&matrix, rounding, poorer)?;
+            nominal = decide_twice(&ranks, rounding, poorer)?;
         }
         let written = if stated > 0.0 {
-            decide_twice(&matrix, rounding, poorer)?
+            decide_twice(&ranks, rounding, poorer)?
         } else {
             nominal.clone()
         };
@@ -354,8 +355,8 @@ impl Standing {
         standing.moved = open || ways.iter().any(|way| *way != 0.0);
         if standing.moved {
             standing.residual = 0.0.norm(&here.residual);
-            let drawn = jacobian(pose.mechanism, pose.geometry, &pose.geometry.states, part)?;
-            if drawn.residual.iter().all(|r| r.abs() <= closing) {
+            let drawn = residual(pose.mechanism, pose.geometry, &pose.geometry.states, part)?;
+            if drawn.iter().all(|r| r.abs() <= closing) {
                 standing.shift = 0.0.norm(&ways);
             }
         }
@@ -388,13 +389,13 @@ fn share_in_range(
 
 /// Decides a rank that has to come out the same with the poorer of two accuracies.
 pub(super) fn decide_twice<R: Real>(
-    matrix: &SparseMatrix<R>,
+    ranks: &Ranks<'_, R>,
     accuracy: f64,
     poorer: f64,
 ) -> Result<RankDecision, MatrixError> {
-    let mut decision = decide(matrix, accuracy)?;
+    let mut decision = ranks.decide(accuracy)?;
     if poorer > accuracy && decision.rank.is_some() {
-        let second = decide(matrix, poorer)?;
+        let second = ranks.decide(poorer)?;
         if second.rank != decision.rank {
             decision.rank = None;
             decision.candidates.0 = decision.candidates.0.min(second.candidates.0);

@@ -9,6 +9,7 @@ use kutzbach_closure::samples::{
     sarrus_places, spherical,
 };
 use kutzbach_closure::{Arithmetic, assemble};
+use kutzbach_math::matrix::Ranks;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind, MechanismBuilder};
 
@@ -257,10 +258,11 @@ fn loops_without_freedom_or_without_size() {
 #[test]
 fn two_accuracies_must_agree() {
     let matrix = SparseMatrix::from_triplets(2, 2, 0.0, [(0, 0, 1.0), (1, 1, 1e-8)]).unwrap();
-    assert_eq!(decide_twice(&matrix, 1e-14, 0.0).unwrap().rank, Some(2));
-    let doubtful = decide_twice(&matrix, 1e-14, 1e-7).unwrap();
+    let ranks = Ranks::of(&matrix).unwrap();
+    assert_eq!(decide_twice(&ranks, 1e-14, 0.0).unwrap().rank, Some(2));
+    let doubtful = decide_twice(&ranks, 1e-14, 1e-7).unwrap();
     assert_eq!((doubtful.rank, doubtful.candidates), (None, (1, 2)));
-    assert_eq!(decide_twice(&matrix, 1e-14, 1e-10).unwrap().rank, Some(2));
+    assert_eq!(decide_twice(&ranks, 1e-14, 1e-10).unwrap().rank, Some(2));
 }
 
 /// The rank of a mechanism and the height of its numbers.

@@ -33,6 +33,9 @@ use std::f64::consts::PI;
 /// Probability that is allowed of taking a number for a constant by chance.
 const CHANCE: f64 = 2e-4;
 
+/// The fewest decimals that tell a multiple of π/4 from chance: 10⁻⁴ ≤ [`CHANCE`] π/4.
+const OF_ANGLES: i32 = 4;
+
 /// What is printed with so many significant digits comes from a program.
 const DIGITS_OF_DOUBLES: u32 = 15;
 
@@ -97,6 +100,13 @@ pub(super) fn has_no_more_than_a_double(number: &Number) -> bool {
     written.significant <= 17
         || Number::from_f64(number.value())
             .is_some_and(|double| distance(number, &double) <= half_unit(written.decimals))
+}
+
+/// Whether a literal has decimals enough for an angle, which asks for the fewest, or digits enough to come from a program: what is read as
+/// anything else has more. Residues are below a tenth of a millimetre, and have more decimals, too.
+fn may_be_constant(number: &Number) -> bool {
+    let written = number.written();
+    written.is_some_and(|own| own.decimals >= OF_ANGLES || own.significant >= DIGITS_OF_DOUBLES)
 }
 
 /// Half a unit of the last digit.
@@ -361,6 +371,10 @@ impl Mechanism {
     #[must_use]
     pub fn with_constants_known_to(mut self, precision: Option<f64>) -> Self {
         let mut found = Recognised::default();
+        if !self.literals().any(may_be_constant) {
+            self.recognised = found;
+            return self;
+        }
         let sizes = Sizes::of(&self);
         for link in &mut self.links {
             if let Placement::Floating { origin, .. } = &mut link.placement {
@@ -384,6 +398,23 @@ impl Mechanism {
             // The digits of the same numbers say the same.
             false => self,
         }
+    }
+
+    /// All numbers of the geometry.
+    fn literals(&self) -> impl Iterator<Item = &Number> {
+        let placed = self.links.iter().filter_map(|link| match &link.placement {
+            Placement::Floating { origin, .. } => Some(origin),
+            _ => None,
+        });
+        let sides = self.joints.iter();
+        let sides = sides.flat_map(|joint| [&joint.predecessor.frame, &joint.successor.frame]);
+        let frames = placed.chain(sides);
+        let of_frames = frames.flat_map(|frame| frame.position.iter().chain(&frame.roll_pitch_yaw));
+        let others = self.joints.iter().flat_map(|joint| {
+            let axes = joint.axis.0.iter().chain(&joint.axis2.0);
+            axes.chain(&joint.lead).chain(&joint.distance)
+        });
+        of_frames.chain(others)
     }
 
     /// Reads as 0 what rounding left of zeros, by independent sub-mechanism.

@@ -78,14 +78,25 @@ impl Mechanism {
         mut self,
         changes: impl IntoIterator<Item = (usize, usize, Number)>,
     ) -> Self {
+        let mut digits_change = false;
         for (joint, place, value) in changes {
             let number = self.joints.get_mut(joint).and_then(|j| j.number_mut(place));
             if let Some(number) = number {
+                digits_change |= has_digits(number) || has_digits(&value);
                 *number = value;
             }
         }
-        self.read_digits()
+        match digits_change {
+            true => self.read_digits(),
+            // Computed numbers have no digits that could say anything of the others.
+            false => self,
+        }
     }
+}
+
+/// Whether a number has digits of its own, or of literals that it was worked out from.
+fn has_digits(number: &Number) -> bool {
+    number.literal_text().is_some() || !number.inputs().is_empty()
 }
 
 #[cfg(test)]
@@ -117,5 +128,26 @@ mod tests {
         }
         // Two frames, an axis and a lead.
         assert_eq!(places.len(), 16);
+    }
+
+    #[test]
+    fn digits_are_read_anew_where_numbers_with_digits_come_or_go() {
+        let mut builder = MechanismBuilder::new("m");
+        builder.link("a").link("b");
+        let kind = JointKind::Revolute;
+        builder.joint(JointBuilder::tree("j", kind, "a", "b"));
+        builder.joint(JointBuilder::closing("k", kind, "a", "b"));
+        let mechanism = builder.build().unwrap();
+        let decimals = |mechanism: &Mechanism| mechanism.precision().decimals;
+        assert_eq!(decimals(&mechanism), None);
+        let third = || Number::ratio(1, 3).unwrap();
+        let stated = mechanism.with_joint_numbers([(0, 0, Number::decimal("0.1234").unwrap())]);
+        assert_eq!(decimals(&stated), Some(4));
+        let beside = stated.with_joint_numbers([(0, 1, third())]);
+        assert_eq!(decimals(&beside), Some(4));
+        assert_eq!(
+            decimals(&beside.with_joint_numbers([(0, 0, third())])),
+            None
+        );
     }
 }

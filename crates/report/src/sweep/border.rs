@@ -1,7 +1,8 @@
 //! Where answers change between neighbouring variants, looked for by bisection.
 
-use super::family::{Members, Outcome, Row, Status};
+use super::family::{Members, Row};
 use super::fraction::Fraction;
+use super::outcome::{Outcome, Status};
 use super::plan::Plan;
 use super::values::Value;
 use kutzbach_mobility::Verdict;

@@ -1,19 +1,16 @@
 //! The members of a family, and what is found of each.
 
+use super::outcome::{Outcome, found, generic_mobility};
 use super::plan::{Plan, Shard};
 use super::values::Value;
 use crate::asked::HOME;
-use crate::findings::{joint_role, margin};
-use crate::natural::natural_order;
 use kutzbach_format::{FormatError, ReadOptions, Reading, Template, property_names, read_bytes_of};
-use kutzbach_mobility::{
-    Analysis, AnalysisOptions, Depth, MobilityClass, PoseKind, SingularKind, Verdict, analyse,
-    generic_count,
-};
+use kutzbach_mobility::{AnalysisOptions, Depth, Structure, analyse_within};
 use kutzbach_model::mechanism::Mechanism;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
 
 /// A file in memory, and how it is to be read.
 #[derive(Clone, Debug)]
@@ -54,87 +51,6 @@ impl MeasuredFile {
             ..self.options.clone()
         };
         read_bytes_of(&self.bytes, &self.file, self.base.as_deref(), &options)
-    }
-}
-
-/// Whether there is an answer for a variant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// It was analysed at a closed pose.
-    Analysed,
-    /// No closed pose was found.
-    Unassembled,
-    /// With these values the file is no mechanism.
-    Invalid,
-}
-
-impl Status {
-    /// The word in a table.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Analysed => "analysed",
-            Self::Unassembled => "unassembled",
-            Self::Invalid => "invalid",
-        }
-    }
-
-    /// What a word in a table says.
-    #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
-        let all = [Self::Analysed, Self::Unassembled, Self::Invalid];
-        all.into_iter().find(|own| own.word() == word)
-    }
-}
-
-/// What is found of a variant; what was not asked, or is not decided, is `None`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Facts {
-    /// Kutzbach's count.
-    pub kutzbach: Option<i64>,
-    /// The count at random geometry.
-    pub generic: Option<i64>,
-    /// Instantaneous freedom.
-    pub instantaneous: Option<usize>,
-    /// Redundant constraints.
-    pub redundant: Option<i64>,
-    /// How many times its tolerance the rank of the weakest part is away from being another one; `None` where nothing was
-    /// ranked or no value is near.
-    pub margin: Option<f64>,
-    /// Finite freedom.
-    pub finite: Option<usize>,
-    /// The verdict.
-    pub verdict: Option<Verdict>,
-    /// Regular or singular.
-    pub pose: Option<PoseKind>,
-    /// In which way singular.
-    pub kind: Option<SingularKind>,
-    /// Why it is mobile.
-    pub class: Option<MobilityClass>,
-    /// How many branches pass through the pose.
-    pub branches: Option<usize>,
-    /// Names of locked joints, in natural order; `None` where it is open of some joint whether it is.
-    pub locked: Option<Vec<String>>,
-}
-
-/// The answer for one variant.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// Whether there is one.
-    pub status: Status,
-    /// Why there is none, or why it is open.
-    pub reason: Option<String>,
-    /// What was found.
-    pub facts: Facts,
-}
-
-impl Outcome {
-    fn invalid(reason: String) -> Self {
-        Self {
-            status: Status::Invalid,
-            reason: Some(reason),
-            facts: Facts::default(),
-        }
     }
 }
 
@@ -239,6 +155,7 @@ impl Family {
         Members {
             family: self,
             template: Template::new(&source.bytes, &source.file, base, &source.options),
+            common: OnceLock::new(),
         }
     }
 
@@ -259,6 +176,18 @@ impl Family {
     #[must_use]
     pub fn verdict(&self, values: &[Value]) -> Outcome {
         self.members().verdict(values)
+    }
+
+    /// What is found of a member.
+    fn outcome(&self, mechanism: &Mechanism, common: &Common) -> Outcome {
+        let mut options = self.asked.clone();
+        if options.configuration.is_none() && mechanism.configuration(HOME).is_some() {
+            options.configuration = Some(HOME.to_owned());
+        }
+        match analyse_within(mechanism, &common.structure, &options) {
+            Ok(analysis) => found(mechanism, &analysis, options.depth, common.generic),
+            Err(error) => Outcome::invalid(error.to_string()),
+        }
     }
 
     fn settings(&self, values: &[Value]) -> Vec<(String, String)> {
@@ -299,6 +228,28 @@ impl Family {
 pub struct Members<'f> {
     family: &'f Family,
     template: Template<'f>,
+    common: OnceLock<Common>,
+}
+
+/// What mechanisms have in common that differ in the numbers of their joints only.
+#[derive(Debug)]
+struct Common {
+    structure: Arc<Structure>,
+    /// The count at random geometry, where rows have it.
+    generic: Option<i64>,
+}
+
+impl Common {
+    fn of(mechanism: &Mechanism, depth: Depth) -> Self {
+        let structure = Structure::new(mechanism);
+        Self {
+            generic: match depth {
+                Depth::Rank => None,
+                _ => generic_mobility(mechanism, &structure),
+            },
+            structure: Arc::new(structure),
+        }
+    }
 }
 
 impl Members<'_> {
@@ -334,96 +285,19 @@ impl Members<'_> {
         let settings: Vec<(String, String)> = varied
             .map(|(name, value)| (name.to_owned(), value.setting.clone()))
             .collect();
-        let reading = match self.template.read(&settings) {
-            Ok(reading) => reading,
-            Err(error) => return Outcome::invalid(error.to_string()),
-        };
-        let mechanism = &reading.mechanism;
-        let mut options = self.family.asked.clone();
-        if options.configuration.is_none() && mechanism.configuration(HOME).is_some() {
-            options.configuration = Some(HOME.to_owned());
-        }
-        match analyse(mechanism, &options) {
-            Ok(analysis) => outcome(mechanism, &analysis, options.depth),
+        let depth = self.family.asked.depth;
+        let told = self.template.with_varied(&settings, |mechanism| {
+            let common = self.common.get_or_init(|| Common::of(mechanism, depth));
+            self.family.outcome(mechanism, common)
+        });
+        told.unwrap_or_else(|| match self.template.read(&settings) {
+            Ok(Reading { mechanism, .. }) => {
+                let own = Common::of(&mechanism, depth);
+                self.family.outcome(&mechanism, &own)
+            }
             Err(error) => Outcome::invalid(error.to_string()),
-        }
+        })
     }
-}
-
-/// What an analysis of this depth has found of the mechanism that it was given, and why not more: what a row says.
-#[must_use]
-pub fn outcome(given: &Mechanism, analysis: &Analysis, depth: Depth) -> Outcome {
-    let mobility = &analysis.mobility;
-    let mut facts = Facts {
-        kutzbach: Some(analysis.kutzbach),
-        ..Facts::default()
-    };
-    let Some(home) = &analysis.home else {
-        facts.verdict = (depth > Depth::Rank).then_some(mobility.verdict);
-        return Outcome {
-            status: Status::Unassembled,
-            reason: Some(mobility.certificate.clone()),
-            facts,
-        };
-    };
-    facts.instantaneous = home.instantaneous;
-    facts.redundant = home.redundant;
-    facts.margin = analysis
-        .parts
-        .iter()
-        .filter(|part| part.unknowns() > 0 && part.equations() > 0)
-        .map(margin)
-        .min_by(f64::total_cmp)
-        .filter(|margin| margin.is_finite());
-    let mut reason = None;
-    if depth == Depth::Rank {
-        if home.instantaneous.is_none() {
-            let (least, most) = home.candidates;
-            reason = Some(format!(
-                "the margin does not tell: between {least} and {most} instantaneous freedoms"
-            ));
-        }
-    } else {
-        judged(&mut facts, analysis.of(given), analysis);
-        if mobility.finite().is_none() {
-            reason = mobility.why.first().cloned();
-        }
-    }
-    Outcome {
-        status: Status::Analysed,
-        reason,
-        facts,
-    }
-}
-
-/// What goes beyond the rank.
-fn judged(facts: &mut Facts, mechanism: &Mechanism, analysis: &Analysis) {
-    let mobility = &analysis.mobility;
-    facts.generic = match &analysis.generic {
-        Some(generic) => Some(generic.mobility),
-        None => generic_count(mechanism, &analysis.structure)
-            .ok()
-            .map(|generic| generic.mobility),
-    };
-    facts.verdict = Some(mobility.verdict);
-    facts.finite = mobility.finite();
-    facts.pose = mobility.pose;
-    facts.kind = mobility.kind;
-    facts.class = mobility.class;
-    facts.branches = analysis.branches.as_ref().map(Vec::len);
-    facts.locked = locked(mechanism, analysis);
-}
-
-/// Names of joints that rest on every branch.
-fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Option<Vec<String>> {
-    let mut names = Vec::new();
-    for (index, joint) in mechanism.joints().iter().enumerate() {
-        if joint.freedom() > 0 && joint_role(analysis, index).locked? {
-            names.push(joint.name.clone());
-        }
-    }
-    names.sort_by(|a, b| natural_order(a, b));
-    Some(names)
 }
 
 /// What a panic said.
@@ -439,8 +313,10 @@ fn told(fault: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use super::super::outcome::Status;
     use super::super::values::Over;
     use super::*;
+    use kutzbach_mobility::Verdict;
 
     /// A hinge at a place that there is none of where `lead` is 0.
     const TEXT: &str = r#"<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">

@@ -3,7 +3,8 @@
 //! No line holds a line break of its own, so that a file that was cut off is complete up to its last line break.
 
 use super::border::Side;
-use super::family::{Facts, Family, Row};
+use super::family::{Family, Row};
+use super::outcome::Facts;
 use super::plan::{Asked, Shard};
 use super::values::Value;
 use crate::text::visible;
@@ -335,7 +336,8 @@ fn json_value(value: &Value) -> String {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::super::family::{MeasuredFile, Outcome, Status};
+    use super::super::family::MeasuredFile;
+    use super::super::outcome::{Outcome, Status};
     use super::super::plan::Plan;
     use super::super::values::Over;
     use super::*;

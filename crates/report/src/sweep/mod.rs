@@ -13,8 +13,9 @@
 //! * Numbers of variants are found without those before them, so that shares of a sweep need not know one another.
 //!
 //! # What it costs
-//! A file that uses named numbers and no more of xacro is parsed once ([`Family::members`]); its numbers are evaluated, and the mechanism
-//! is built, for each member. Any other file is read from memory for each. Each member is analysed by itself.
+//! A file that uses named numbers and no more of xacro is parsed once ([`Family::members`]). Where these stand in frames and axes of joints
+//! only, members differ in numbers only: the mechanism is built once, with its structure and the count at random geometry, and other numbers
+//! are put into it for each. Where not, it is built for each; any other file is read from memory for each. Each member is analysed by itself.
 //!
 //! ```
 //! # mod kutzbach { pub use kutzbach_report::sweep; pub use kutzbach_mobility as mobility; }
@@ -42,16 +43,18 @@ mod border;
 mod family;
 mod fraction;
 mod lines;
+mod outcome;
 mod plan;
 mod points;
 mod values;
 
 pub use border::{Border, Side};
-pub use family::{Facts, Family, MeasuredFile, Members, Outcome, Row, Status, outcome};
+pub use family::{Family, MeasuredFile, Members, Row};
 pub use fraction::Fraction;
 #[cfg(feature = "simulate")]
 pub(crate) use lines::csv_cells;
 pub use lines::{Form, SWEEP_SCHEMA, Table};
+pub use outcome::{Facts, Outcome, Status, outcome};
 pub use plan::{Asked, Plan, Sample, Shard};
 pub use points::{SOBOL_DIMENSIONS, Sobol, random_parts};
 pub use values::{Over, Range, SweepError, Value, Values};
