@@ -152,6 +152,18 @@ mod tests {
     }
 
     #[test]
+    fn rounding_asks_for_no_change() {
+        let a = Mat::from_fn(2, 2, |i, j| [[1.0, 0.0], [0.0, 1e-8]][i][j]);
+        let equations = Decomposed::of(&a).unwrap();
+        let b = [0.5, 1e-6];
+        let least = |b: &[f64]| equations.least_largest(b, |_| 1e-9).unwrap().at_least;
+        assert!(least(&b) > 90.0);
+        let beyond = equations.but_for_rounding(&b, 2e-6);
+        assert!((beyond[0] - 0.5).abs() < 1e-5 && beyond[1].abs() < 1e-12);
+        assert!(least(&beyond) < 1.0, "{}", least(&beyond));
+    }
+
+    #[test]
     fn bounds_meet_on_dependent_equations() {
         // Two equations, one of them twice, in five unknowns of different reach.
         let row = |i: usize, j: usize| match i {
