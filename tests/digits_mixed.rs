@@ -225,3 +225,43 @@ fn a_hinge_askew_in_full_beside_rounded_poses_holds_fast() {
     let analysis = analyse(&reading.mechanism, &AnalysisOptions::default()).unwrap();
     assert_ne!(analysis.mobility.finite(), Some(1));
 }
+
+/// A four-bar whose plane is tilted, in twelve significant digits: its loop misses by rounding along the motion, of which numbers that do next to nothing
+/// made 64276 units.
+#[test]
+fn twelve_digits_of_a_tilted_four_bar_do_not_hold_it_fast() {
+    let joint = |name: &str, parent: &str, child: &str, place: &str, axis: &str| {
+        format!(
+            r#"<link name="{child}"/><joint name="{name}" type="continuous"><parent link="{parent}"/><child link="{child}"/>
+            <origin {place}/><axis xyz="{axis}"/></joint>"#
+        )
+    };
+    let crank = joint(
+        "a",
+        "base",
+        "crank",
+        r#"xyz="0.123003710212 0.456003710177 0.789003718529" rpy="-0.285623707212 -0.470902401069 2.58128629184""#,
+        "-1.48495049887e-06 3.70552769194e-06 0.999996298506",
+    );
+    let coupler = joint(
+        "b",
+        "crank",
+        "coupler",
+        r#"xyz="0.11400969053 -8.90989846238e-06 8.63982935583e-06" rpy="-4.58572558433e-06 -1.45545148225e-06 -0.982798066384""#,
+        "4.45959173716e-07 5.79589090895e-07 1.00000080415",
+    );
+    let rocker = joint(
+        "d",
+        "base",
+        "rocker",
+        r#"xyz="0.246306281391 0.717386296426 0.901096311314" rpy="-0.46634629363 -0.293363710486 3.05622370816""#,
+        "3.70121008397e-06 -3.7077760271e-06 0.999996289031",
+    );
+    let text = format!(
+        r#"<robot name="tilted"><link name="base"/>{crank}{coupler}{rocker}
+        <loop name="c" type="continuous"><predecessor link="coupler"><origin xyz="0.252985494255 9.07456364272e-06 -1.20472112329e-05"/></predecessor>
+        <successor link="rocker"><origin xyz="0.19416370157 9.38251259573e-07 1.97436499613e-07" rpy="0.00000428775 0.00000056063 -0.00000000005"/></successor>
+        <axis xyz="0.000000601766 0.000000029000323985 0.05000018506551645"/></loop></robot>"#
+    );
+    assert_ne!(finite(&text), Some(0));
+}

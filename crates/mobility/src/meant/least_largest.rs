@@ -44,6 +44,20 @@ impl<'a> Decomposed<'a> {
         Some(Self { matrix, svd })
     }
 
+    /// What is left of a right side where so much along each left singular vector is rounding.
+    pub fn but_for_rounding(&self, b: &[f64], rounding: f64) -> Vec<f64> {
+        let u = self.svd.U();
+        let mut left = vec![0.0; b.len()];
+        for j in 0..u.ncols() {
+            let along: f64 = b.iter().enumerate().map(|(i, b)| u[(i, j)] * b).sum();
+            let beyond = (along.abs() - rounding).max(0.0).copysign(along);
+            for (i, left) in left.iter_mut().enumerate() {
+                *left += beyond * u[(i, j)];
+            }
+        }
+        left
+    }
+
     /// The solution of `a z = b` whose largest entry is least, in the sense of least squares and without the equations whose singular
     /// value is below a share of the largest, which is told to `dependent`; `None` where none is found.
     pub fn least_largest(&self, b: &[f64], dependent: impl Fn(f64) -> f64) -> Option<LeastLargest> {
@@ -135,6 +149,18 @@ mod tests {
             "{:?}",
             found.z
         );
+    }
+
+    #[test]
+    fn rounding_asks_for_no_change() {
+        let a = Mat::from_fn(2, 2, |i, j| [[1.0, 0.0], [0.0, 1e-8]][i][j]);
+        let equations = Decomposed::of(&a).unwrap();
+        let b = [0.5, 1e-6];
+        let least = |b: &[f64]| equations.least_largest(b, |_| 1e-9).unwrap().at_least;
+        assert!(least(&b) > 90.0);
+        let beyond = equations.but_for_rounding(&b, 2e-6);
+        assert!((beyond[0] - 0.5).abs() < 1e-5 && beyond[1].abs() < 1e-12);
+        assert!(least(&beyond) < 1.0, "{}", least(&beyond));
     }
 
     #[test]

@@ -116,7 +116,9 @@ impl Search<'_> {
         let Some(equations) = Decomposed::of(&matrix) else {
             return Ok(0.0);
         };
-        let found = equations.least_largest(&misfit, drowned);
+        // A direction in which numbers do little makes much of rounding.
+        let beyond = equations.but_for_rounding(&misfit, STALLED);
+        let found = equations.least_largest(&beyond, drowned);
         let found = found.map_or(0.0, |found| found.at_least);
         Ok(found.max(least_of_drowned(&equations, &misfit)))
     }

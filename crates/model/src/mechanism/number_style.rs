@@ -49,7 +49,7 @@ const IMPROBABLE: f64 = 1e-3;
 const UNLIKELY: f64 = 0.05;
 
 /// Significant digits that tell doubles apart.
-pub(super) const OF_A_DOUBLE: u32 = 17;
+const OF_A_DOUBLE: u32 = 17;
 
 /// Of so many significant digits a program printed all that it had.
 const IN_FULL: u32 = 15;
@@ -145,6 +145,11 @@ impl Group {
     /// Whether its digits are those of printed doubles, and not mostly shorter ones of another hand.
     pub fn is_of_doubles(&self) -> bool {
         self.doubles && self.lost == i32::MAX
+    }
+
+    /// Whether it has all the digits of doubles, and not mostly shorter ones of another hand.
+    pub fn is_in_full(&self) -> bool {
+        self.significant >= OF_A_DOUBLE && self.lost == i32::MAX
     }
 
     /// Whether literals that count as exact may all be rounded to the decimals of the longest: no more of them are shorter than zeros

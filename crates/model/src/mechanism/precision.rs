@@ -1,7 +1,7 @@
 //! How far the numbers of one independent sub-mechanism may be from the numbers meant.
 
 use super::joint::Joint;
-use super::number_style::{EXACT_DECIMALS, Group, Literals, OF_A_DOUBLE, Written};
+use super::number_style::{EXACT_DECIMALS, Group, Literals, Written};
 use kutzbach_math::number::{Input, Number};
 use std::collections::BTreeSet;
 
@@ -96,7 +96,7 @@ impl Precision {
     #[must_use]
     pub fn is_in_full(&self) -> bool {
         let mut rounded = self.groups.iter().filter(|group| !group.is_exact());
-        rounded.clone().next().is_some() && rounded.all(|group| group.significant >= OF_A_DOUBLE)
+        rounded.clone().next().is_some() && rounded.all(Group::is_in_full)
     }
 
     /// The uncertainty of every literal that was stated by hand instead of by digits (m, rad).

@@ -389,10 +389,11 @@ fn a_few_doubles_do_not_make_rounded_numbers_doubles() {
     ];
     let of_both = |doubles: &[&str]| of(&[&rounded[..], doubles].concat());
     let mixed = of_both(&["0.11401770824708224"]);
-    assert!(!mixed.is_of_doubles());
+    assert!(!mixed.is_of_doubles() && !mixed.is_in_full());
     assert!((mixed.uncertainty(0, &number("0.45612")) / 5e-6 - 1.0).abs() < 1e-9);
     let doubles = ["0.11401770824708224", "0.25297529986988493"];
-    assert!(of(&doubles).is_of_doubles());
+    let doubles = of(&doubles);
+    assert!(doubles.is_of_doubles() && doubles.is_in_full());
 }
 
 #[test]
