@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes everything that is measured on docs/src/accuracy.md, accuracy_by_mechanism.md and stability.md anew, with its records and figures.
 
-    python3 benches/accuracy.py --date DATE --machine MACHINE [--quick]
+    python3 benches/accuracy.py [--quick] [--date DATE] [--machine MACHINE]
 
 Three programs one after the other: the accuracy of eight mechanisms (some minutes, on a machine with nothing else to do), the
 break points of the stability suite (some minutes), and the mutations that show that the suite can fail (half an hour; --quick
@@ -9,6 +9,7 @@ leaves them as they are).
 """
 
 import argparse
+import datetime
 import os
 import pathlib
 import subprocess
@@ -31,8 +32,9 @@ def steps(date, machine, quick):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--date", required=True, help="the day, for the records")
-    parser.add_argument("--machine", required=True, help="words for the machine, for the records")
+    parser.add_argument("--date", default=str(datetime.date.today()), help="the day, for the records [default: today]")
+    machine = f"{os.cpu_count()} cores of an ordinary machine"
+    parser.add_argument("--machine", default=machine, help="words for the machine, for the records [default: %(default)s]")
     parser.add_argument("--quick", action="store_true", help="leave the mutations as they are")
     options = parser.parse_args()
     for words, command, variables in steps(options.date, options.machine, options.quick):

@@ -315,9 +315,11 @@ fn build(plan: &Plan) -> MechanismBuilder {
     let [contact, limits, friction, damping] = plan.effects;
     if contact || limits {
         let gravity = plan.gravity.clone();
+        let share = plan.ratio.clone();
         builder.scene(Scene {
             gravity,
             contact,
+            restitution: share.filter(|share| contact && (0.0..=1.0).contains(&share.value())),
             limits,
             friction,
             damping,

@@ -15,7 +15,7 @@ use clap::Args;
 use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
 use kutzbach::simulate::{
-    Effects, LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table,
+    LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table,
     run_scene_estimated, scene_drives,
 };
 use log::Log;
@@ -84,7 +84,7 @@ pub struct Arguments {
     /// What makes the scene move
     #[arg(long, value_enum, default_value_t = IntegratorChoice::Auto, help_heading = "The scene")]
     integrator: IntegratorChoice,
-    /// How fast shapes that touch part again, as a share of the speed of approach, from 0 to 1 [default: 0]
+    /// How fast shapes that touch part again, as a share of the speed of approach, from 0 to 1 [default: that of the scene, or 0]
     #[arg(long, value_name = "SHARE", value_parser = share, help_heading = "The scene")]
     restitution: Option<f64>,
     /// Simulated seconds of the scene [default: 2]
@@ -221,10 +221,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         setting::begin_with(setting, &mut options);
     }
 
-    let effects = Effects {
-        restitution: arguments.restitution.unwrap_or_default(),
-        ..choices::effects(mechanism, &arguments.with, &arguments.without)
-    };
+    let mut effects = choices::effects(mechanism, &arguments.with, &arguments.without);
+    effects.restitution = arguments.restitution.unwrap_or(effects.restitution);
     let drives = scene_drives(mechanism);
     // A step that is asked for is taken as it is, and refused where it is longer than the scene.
     let no_longer = |usual: f64| match (arguments.time_step, duration > 0.0) {

@@ -7,20 +7,19 @@ const G: f64 = 9.81;
 /// A ball let fall by a metre is up again by the square of the coefficient of restitution, after as many of the times of its fall.
 #[test]
 fn a_ball_bounces_as_high_as_its_restitution_says() {
-    let placed = Placed::new(parse(
-        r#"<robot name="bounce"><link name="ground"><collision><origin xyz="0 0 -0.5"/><geometry><box size="4 4 1"/></geometry></collision></link>
+    let scene = |restitution: f64| {
+        let text = r#"<robot name="bounce"><link name="ground"><collision><origin xyz="0 0 -0.5"/><geometry><box size="4 4 1"/></geometry></collision></link>
         <link name="ball"><inertial><mass value="3"/><inertia ixx="0.012" ixy="0" ixz="0" iyy="0.012" iyz="0" izz="0.012"/></inertial>
         <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
-        <joint name="free" type="floating"><parent link="ground"/><child link="ball"/><origin xyz="0.1 0.2 1.1"/></joint></robot>"#,
-    ));
+        <joint name="free" type="floating"><parent link="ground"/><child link="ball"/><origin xyz="0.1 0.2 1.1"/></joint>
+        <scene><gravity xyz="0 0 -9.81"/><contact restitution="SHARE"/></scene></robot>"#;
+        Placed::new(parse(&text.replace("SHARE", &restitution.to_string())))
+    };
     let fall = (2.0 / G).sqrt();
     for solver in SOLVERS {
         for restitution in [0.0, 0.5, 0.8] {
-            let effects = Effects {
-                contact: true,
-                restitution,
-                ..gravity()
-            };
+            let placed = scene(restitution);
+            let effects = Effects::of_scene(&placed.mechanism);
             let apex = (1.0 + restitution) * fall;
             let off = [500.0, 2000.0].map(|rate: f64| {
                 let mut world = placed.world(&options(solver, effects, 1.0 / rate, 1));

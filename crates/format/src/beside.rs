@@ -196,10 +196,14 @@ impl<'a> Reader<'a> {
                     let torque = self.optional_number(part, "torque")?;
                     self.builder.drive(joint, velocity, torque);
                 }
+                "contact" => {
+                    self.leaf(part, &["restitution"])?;
+                    read.contact = true;
+                    read.restitution = self.optional_number(part, "restitution")?;
+                }
                 effect => {
                     self.leaf(part, &[])?;
                     match effect {
-                        "contact" => read.contact = true,
                         "limits" => read.limits = true,
                         "friction" => read.friction = true,
                         _ => read.damping = true,

@@ -429,8 +429,11 @@ impl Writer<'_> {
                 &format!("<gravity{}/>", pair("xyz", &style.numbers(gravity))),
             );
         }
+        if scene.contact {
+            let restitution = style.optional("restitution", scene.restitution.as_ref());
+            self.line(2, &format!("<contact{restitution}/>"));
+        }
         for (effect, wanted) in [
-            ("<contact/>", scene.contact),
             ("<limits/>", scene.limits),
             ("<friction/>", scene.friction),
             ("<damping/>", scene.damping),

@@ -94,6 +94,11 @@ impl Cubic {
             .collect()
     }
 
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.chord.len()
+    }
+
     /// One component of [`Self::at`].
     pub fn component(&self, i: usize, u: f64) -> f64 {
         u * (1.0 - u) * (1.0 - u) * self.first[i]

@@ -15,10 +15,10 @@
 //! | file | says |
 //! |---|---|
 //! | `system`, `system/…` | the equations of a part, compiled ([`LoopSystem`]); its poses, values and derivatives |
-//! | `rows`, `sparse_rows`, `deflation`, `kept`, `solver` | which equations are solved at a pose, and Newton's method on them |
+//! | `rows`, `sparse_rows`, `deflation`, `solver` | which equations are solved at a pose, and Newton's method on them |
 //! | `node`, `cubic`, `follow` | a pose with its tangent, what lies between two, from pose to pose |
 //! | `cusp`, `singular`, `bridge`, `pieces`, `walk` | cusps and singular poses, how they are passed, the whole curve |
-//! | `curve` | poses by arclength and by drive value ([`Curve`]) |
+//! | `curve`, `at_drive`, `dense_output` | poses by arclength and by drive value ([`Curve`]), many of a segment by a polynomial |
 //! | `dead_centres`, `ranges`, `pitch`, `sampling` | what is read off a curve |
 //! | `four_bar`, `four_bar/…` | Grashof's class, swings and transmission angles of four-bars ([`four_bars()`]) |
 //! | `inputs`, `requested` | what is driven and held |
@@ -31,16 +31,17 @@
 //! up to 150, sparse ones serve beyond.
 
 mod approach;
+mod at_drive;
 mod bridge;
 mod cubic;
 mod curve;
 mod cusp;
 mod dead_centres;
 mod deflation;
+mod dense_output;
 mod follow;
 mod four_bar;
 mod inputs;
-mod kept;
 mod links;
 mod node;
 mod pieces;

@@ -2,15 +2,13 @@
 //!
 //! A step is the shortest one that the chosen equations ask for, plus what is needed along the tangent so that one further
 //! condition holds: that the pose does not move along a given direction, or that a joint variable has a given value. The
-//! factors of one pose serve for the steps after it as long as every step is a hundredth of the one before, and for the poses
-//! around it as long as a step bounds the distance from the curve ([`Kept`]); so a pose that is predicted to six digits costs
-//! one factorization at most and two or three residuals.
+//! factors of one pose serve for the steps after it as long as every step is a hundredth of the one before; so a pose that is
+//! predicted to six digits costs one factorization and two or three residuals.
 //!
 //! Convergence is measured by the step, not by the residual, which a redundant equation may keep above rounding; all
 //! equations, chosen or not, are held against what is allowed at the end.
 
 use super::deflation::Deflation;
-use super::kept::{Kept, dense_rate, sparse_rate};
 use super::result::TraceOptions;
 use super::rows::DenseRows;
 use super::sparse_rows::SparseRows;
@@ -27,35 +25,6 @@ const STEP_LIMIT: usize = 16;
 
 /// A step longer than this (metric) is no correction.
 const LONGEST_STEP: f64 = 1.0;
-
-/// Factors of another pose serve where a step with them leaves no more than this share of an error ([`Kept`]): the way to the curve is then
-/// at most five times as long as a step.
-const MOST_LEFT: f64 = 0.8;
-
-/// In small parts, where a factorization costs as much as a few steps, factors serve as long as a step is two digits.
-const MOST_LEFT_DENSE: f64 = 0.02;
-
-/// They are given up where a step leaves more than this all the same, or about as much so often that factoring is cheaper: what is
-/// neglected is of second order.
-const MOST_SEEN: f64 = 0.5;
-
-/// A pose no farther from the curve than this (metric) is on it: rounding of a hundred joints.
-const CLOSE: f64 = 3e-14;
-
-/// An equation is rounded by this, m of them by √m as much, which leaves a pose open by that over their margin.
-const ROUNDED: f64 = 2.0 * f64::EPSILON;
-
-/// What rounding leaves open by more than this is not taken from factors of another pose.
-const MOST_OPEN: f64 = 1e-11;
-
-/// Steps with the factors of another pose before these are made anew.
-const KEPT_STEPS: usize = 6;
-
-/// Of poses too far from one another for factors to serve, every so many asks whether that has changed.
-const ASK_AGAIN: usize = 16;
-
-/// Factors are worth asking how far they serve where that is so many poses.
-const WORTH: f64 = 1.5;
 
 /// Singular values below this share of the largest ask for no step in [`Solver::polish`].
 const NEARLY_VANISHING: f64 = 1e-3;
@@ -84,17 +53,6 @@ pub(super) struct Corrected {
     pub closure: f64,
 }
 
-/// Poses asked for one after another.
-#[derive(Clone, Copy, Debug, Default)]
-struct Asked {
-    /// Arclength of the last one.
-    arc: f64,
-    /// The last [`Kept::rate`] found.
-    rate: f64,
-    /// Poses since.
-    since: usize,
-}
-
 /// Solves the equations of a part about poses of one branch.
 #[derive(Clone, Debug)]
 pub(super) struct Solver {
@@ -102,13 +60,6 @@ pub(super) struct Solver {
     /// Unknowns that are held, with their values.
     holds: Vec<(usize, f64)>,
     rows: Rows,
-    /// Whether the last factorization was of independent equations.
-    factored: bool,
-    /// Where these factors serve, if they were made for that.
-    kept: Option<Kept>,
-    asked: Asked,
-    /// What the equations of a large part change most for, along the curve.
-    changed: Vec<f64>,
     deflation: Option<Deflation>,
     evaluation: Evaluation,
     right: Vec<f64>,
@@ -170,10 +121,6 @@ impl Solver {
             system,
             holds,
             rows,
-            factored: false,
-            kept: None,
-            asked: Asked::default(),
-            changed: Vec::new(),
             deflation,
             evaluation,
             right: vec![0.0; equations],
@@ -218,12 +165,6 @@ impl Solver {
     }
 
     fn factor(&mut self, pose: &SystemPose) -> bool {
-        self.kept = None;
-        self.factored = self.factor_rows(pose);
-        self.factored
-    }
-
-    fn factor_rows(&mut self, pose: &SystemPose) -> bool {
         let n = self.system.unknowns();
         let first = self.system.equations();
         match &mut self.rows {
@@ -279,7 +220,6 @@ impl Solver {
 
     /// Chooses these equations from now on, or the most independent ones each time.
     pub fn fix(&mut self, chosen: Option<Vec<usize>>) {
-        self.factored = false;
         if let Rows::Dense(dense) = &mut self.rows {
             dense.fix(chosen);
         }
@@ -376,88 +316,6 @@ impl Solver {
     /// Moves a pose onto the curve. `None` where that does not converge or some equation stays open; the pose is then of no
     /// use.
     pub fn correct(&mut self, pose: &mut SystemPose, along: Along<'_>) -> Option<Corrected> {
-        self.correct_anew(pose, along, None)
-    }
-
-    /// As [`Self::correct`], for poses asked for one after another, about where their arclengths are known: with the factors of one before
-    /// where these serve.
-    pub fn correct_next(
-        &mut self,
-        pose: &mut SystemPose,
-        along: Along<'_>,
-        arc: f64,
-    ) -> Option<Corrected> {
-        let spacing = (arc - std::mem::replace(&mut self.asked.arc, arc)).abs();
-        self.asked.since += 1;
-        if let Some(kept) = self.kept.filter(|_| self.factored)
-            && let Some(done) = self.correct_kept(pose, along, (kept.share(arc), kept.close))
-        {
-            return Some(done);
-        }
-        let worth = self.is_worth(spacing);
-        self.correct_anew(pose, along, worth.then_some(arc))
-    }
-
-    /// Whether factors made for one of poses so far apart are likely to serve for the next ones.
-    fn is_worth(&self, spacing: f64) -> bool {
-        let near = WORTH * self.asked.rate * spacing <= self.most_left();
-        // Rows of a held ball change too, which is in no rate.
-        let mut holds = self.holds.iter();
-        (near || self.asked.since > ASK_AGAIN)
-            && self.deflation.is_none()
-            && holds.all(|(unknown, _)| self.system.is_scalar(*unknown))
-    }
-
-    /// The largest share of an error that a step may leave.
-    fn most_left(&self) -> f64 {
-        match self.rows {
-            Rows::Dense(_) => MOST_LEFT_DENSE,
-            Rows::Sparse(_) => MOST_LEFT,
-        }
-    }
-
-    /// With the factors of another pose, of which a step leaves a share of the error, as close to the curve as is said.
-    fn correct_kept(
-        &mut self,
-        pose: &mut SystemPose,
-        along: Along<'_>,
-        (share, close): (f64, f64),
-    ) -> Option<Corrected> {
-        let (mut way, mut before) = (0.0, f64::INFINITY);
-        for _ in 0..KEPT_STEPS {
-            self.system.residual(pose, &mut self.evaluation);
-            self.read_right(pose);
-            let rest = self.fill_condition(pose, along);
-            let closure = self.closure();
-            if self.is_good_enough(rest) {
-                return Some(Corrected { way, closure });
-            }
-            // What a step leaves is carried along the tangent until the condition is met.
-            let across = dot(&self.row, self.tangent()).abs();
-            if !(share <= self.most_left() * across.min(1.0)) {
-                return None;
-            }
-            let length = self.find_step(rest)?;
-            if length <= (1.0 - share) * close {
-                return (closure <= self.allowed).then_some(Corrected { way, closure });
-            }
-            if length > MOST_SEEN * before {
-                return None;
-            }
-            self.system.advance(pose, &self.step);
-            way += length;
-            before = length;
-        }
-        None
-    }
-
-    /// With factors of its own; those of a pose at an arclength that is given are held against the poses around it.
-    fn correct_anew(
-        &mut self,
-        pose: &mut SystemPose,
-        along: Along<'_>,
-        arc: Option<f64>,
-    ) -> Option<Corrected> {
         let mut way = 0.0;
         let mut before = f64::INFINITY;
         let mut factored = false;
@@ -473,11 +331,8 @@ impl Solver {
             if self.is_good_enough(rest) {
                 return Some(Corrected { way, closure });
             }
-            if !factored {
-                if !self.factor(pose) {
-                    return None;
-                }
-                self.kept = arc.map(|arc| self.kept_at(arc));
+            if !factored && !self.factor(pose) {
+                return None;
             }
             let length = self.find_step(rest)?;
             self.system.advance(pose, &self.step);
@@ -497,19 +352,6 @@ impl Solver {
         self.system.residual(pose, &mut self.evaluation);
         let closure = self.closure();
         (closure <= self.allowed && before < 1e-6).then_some(Corrected { way, closure })
-    }
-
-    /// What the factors just made, at an arclength, are worth beside.
-    fn kept_at(&mut self, arc: f64) -> Kept {
-        let (system, evaluation) = (&self.system, &self.evaluation);
-        let rate = match &self.rows {
-            Rows::Dense(dense) => dense_rate(dense, system, evaluation, self.right.len()),
-            Rows::Sparse(sparse) => sparse_rate(sparse, system, evaluation, &mut self.changed),
-        };
-        (self.asked.rate, self.asked.since) = (rate, 0);
-        let equations = (self.system.unknowns() as f64).sqrt();
-        let close = (equations * ROUNDED / self.margin()).clamp(CLOSE, MOST_OPEN);
-        Kept { arc, rate, close }
     }
 
     /// The step that the last factorization asks for, in `self.step`, and its length; `None` for one that is no correction. That of a large

@@ -126,7 +126,7 @@ impl SparseRows {
 
     /// The shortest x that the chosen equations see as `right` (by place), by the seminormal equations, which square the condition
     /// (Björck 1996, section 6.6.5): what is left is corrected by those who look at what it does.
-    pub fn shortest(&self, right: &[f64]) -> Vec<f64> {
+    fn shortest(&self, right: &[f64]) -> Vec<f64> {
         let Some((matrix, factorization)) = &self.columns else {
             return vec![0.0; self.unknowns];
         };
@@ -135,21 +135,6 @@ impl SparseRows {
         factorization.triangle.back_substitute(&mut left);
         let found = matrix.multiply(&left);
         found.unwrap_or_else(|_| vec![f64::NAN; self.unknowns])
-    }
-
-    /// The place of an equation among the chosen ones.
-    pub fn place(&self, equation: usize) -> Option<usize> {
-        self.position.get(equation).copied().flatten()
-    }
-
-    /// The transpose of [`Self::shortest`]: unknowns to chosen equations, by place.
-    pub fn shortest_transposed(&self, x: &[f64]) -> Vec<f64> {
-        let mut seen = self.seen(x);
-        if let Some((_, factorization)) = &self.columns {
-            factorization.triangle.forward_substitute(&mut seen);
-            factorization.triangle.back_substitute(&mut seen);
-        }
-        seen
     }
 
     /// As [`super::rows::DenseRows::solve`], as rough as [`Self::shortest`] or corrected once.

@@ -33,8 +33,7 @@ pub struct Effects {
     pub gravity: Option<[f64; 3]>,
     /// Contact between the collision shapes of links that no joint connects.
     pub contact: bool,
-    /// How fast what touches parts again, as a share of the speed of approach (Newton's coefficient of restitution, from 0 to 1); the format
-    /// states none.
+    /// How fast what touches parts again, as a share of the speed of approach (Newton's coefficient of restitution, from 0 to 1).
     pub restitution: f64,
     /// Joint limits, from `<limit>`.
     pub limits: bool,
@@ -57,7 +56,10 @@ impl Effects {
                 .as_ref()
                 .map(|g| [0, 1, 2].map(|i| g[i].value())),
             contact: scene.contact,
-            restitution: 0.0,
+            restitution: scene
+                .restitution
+                .as_ref()
+                .map_or(0.0, |share| share.value()),
             limits: scene.limits,
             friction: scene.friction,
             damping: scene.damping,

@@ -21,6 +21,9 @@ pub struct Scene {
     pub gravity: Option<[Number; 3]>,
     /// Contact between collision shapes.
     pub contact: bool,
+    /// How fast what touches parts again, as a share of the speed of approach (Newton's coefficient of restitution, from 0 to 1); `None` is
+    /// not at all.
+    pub restitution: Option<Number>,
     /// Joint limits.
     pub limits: bool,
     /// Dry friction in joints.

@@ -87,7 +87,8 @@ impl Tracer<'_> {
                 system,
                 states,
             )),
-            beside: None,
+            asked: f64::NAN,
+            dense: None,
         };
         let dead = dead_centres(&mut curve);
         curve.milestones = milestones(&curve, &dead);

@@ -35,6 +35,21 @@ pub(super) fn check_all_finite<'a>(
         .try_for_each(|value| check_finite(entity, what, value))
 }
 
+/// A part of a whole.
+pub(super) fn check_share(
+    entity: &Entity,
+    what: &str,
+    value: Option<&Number>,
+) -> Result<(), MechanismError> {
+    match value.map(Number::value) {
+        Some(share) if !(0.0..=1.0).contains(&share) => Err(MechanismError::new(
+            entity.clone(),
+            format!("{what} is {share}, not from 0 to 1"),
+        )),
+        _ => Ok(()),
+    }
+}
+
 /// Every number of a frame.
 pub(super) fn check_frame(entity: &Entity, frame: &Frame) -> Result<(), MechanismError> {
     check_all_finite(

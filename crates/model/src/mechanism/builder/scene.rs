@@ -1,6 +1,6 @@
 //! The scene and its drives: from joint names to joints of one rate.
 
-use super::checks::{check_all_finite, check_finite, check_one_freedom};
+use super::checks::{check_all_finite, check_finite, check_one_freedom, check_share};
 use super::names::Names;
 use crate::mechanism::{Drive, Entity, Joint, MechanismError, Scene};
 use kutzbach_math::number::Number;
@@ -26,6 +26,7 @@ pub(super) fn resolve_scene(
     let mut scene = scene.unwrap_or_default();
     let entity = Entity::Scene;
     check_all_finite(&entity, "gravity", scene.gravity.iter().flatten())?;
+    check_share(&entity, "restitution", scene.restitution.as_ref())?;
     for DriveSpec {
         joint: name,
         velocity,
@@ -100,5 +101,20 @@ mod tests {
             ..Scene::default()
         });
         assert!(fault(heavy).starts_with("the scene: gravity is -1e101"));
+        for (share, said) in [
+            (
+                "1.5",
+                Some("the scene: restitution is 1.5, not from 0 to 1"),
+            ),
+            ("1", None),
+        ] {
+            let mut bouncing = hinges();
+            bouncing.scene(Scene {
+                restitution: Some(number(share)),
+                ..Scene::default()
+            });
+            let built = bouncing.build().map_err(|error| error.to_string());
+            assert_eq!(built.err().as_deref(), said);
+        }
     }
 }
