@@ -223,7 +223,9 @@ mod tests {
                     }
                 }
                 let varied = template.with_varied(&settings("4"), |_| ());
-                assert_eq!(varied.is_some(), is_parsed, "{text}");
+                // Read strictly, the call of a macro that nobody defines is an error whatever the values are.
+                let readable = is_parsed && !options.strict;
+                assert_eq!(varied.is_some(), readable, "{text}");
                 let unknown = vec![("led".to_owned(), "1".to_owned())];
                 assert!(template.read(&unknown).is_err());
             }

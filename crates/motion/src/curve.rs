@@ -411,7 +411,7 @@ mod tests {
                     let off = once.solver.system.separation(&many.pose, &alone.pose);
                     assert!(off < 1e-11, "{name}, {index} of {poses}: {off:e}");
                 }
-                let wanted = if poses < 5000 { 0 } else { 4 * poses / 5 };
+                let wanted = if poses < 5000 { 0 } else { 2 * poses / 3 };
                 assert!(read_off >= wanted, "{name}: {read_off} of {poses}");
             }
         }

@@ -99,7 +99,8 @@ pub const SERVING: [Serving; 10] = [
     GRAVITY, DAMPING, DRIVE, UNREACHED, REACHED, CONTACT, FRICTION, CAPPED, SEVERAL, SINGULAR,
 ];
 
-/// Whether the equations of motion say which way a scene begins to move: not where two branches meet, or where a mechanism is shaky.
+/// Whether the equations of motion say which way a scene moves: not where two branches meet, or where a mechanism is shaky, at its start or,
+/// where nothing but these equations moves it, on its way.
 ///
 /// # Errors
 /// As [`SmoothWorld::new`].
@@ -119,9 +120,15 @@ pub(super) fn goes_one_way(scene: &Scene<'_>) -> Result<bool, WorldError> {
     };
     shortly.drives.retain(|drive| one_freedom(drive.joint));
     shortly.runge_kutta_step = RUNGE_KUTTA_STEP;
-    shortly.duration = RUNGE_KUTTA_STEP;
+    // Where the engine is asked for, nobody else has been all the way.
+    let alone = options.integrator == Some(Integrator::Engine);
+    let steps = match alone && refusals(mechanism, options).is_empty() {
+        true => (options.duration / RUNGE_KUTTA_STEP).round().max(1.0),
+        false => 1.0,
+    };
+    shortly.duration = steps * RUNGE_KUTTA_STEP;
     let world = SmoothWorld::new(mechanism, geometry, start, &shortly)?;
-    Ok(world.is_ok_and(|mut world| world.step().is_ok()))
+    Ok(world.is_ok_and(|mut world| (0..steps as u64).all(|_| world.step().is_ok())))
 }
 
 /// A mechanism in motion, in steps of one length.

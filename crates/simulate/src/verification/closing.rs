@@ -47,10 +47,10 @@ fn closes_part(system: &LoopSystem, states: &[JointState<f64>], reach: f64) -> b
 /// Singular values below this share of the largest are those of motions: rounding, and far from what loops are spoiled by.
 const VANISHING: f64 = 1e-9;
 
-/// Steps of a walk (rad, lengths of the part), and how many; a correction is shorter than this share of a step: one that leads back to an
-/// isolated pose is half of it at least.
+/// Steps of a walk (rad, lengths of the part), and how many: on a way of one, loops that miss by a part in 10¹² are open by more than rounding.
+/// A correction is shorter than this share of a step: one that leads back to an isolated pose is half of it at least.
 const STEP: f64 = 0.025;
-const WALK: usize = 6;
+const WALK: usize = 40;
 const CORRECTION: f64 = 0.4;
 
 /// How far the loops of some part close to rounding at every step along a direction that is open at the pose given, whatever a simulation
@@ -117,7 +117,7 @@ fn walk(system: &LoopSystem, start: &SystemPose, mut along: DVector<f64>) -> Opt
     let mut way = vec![0.0; system.unknowns()];
     system.way(start, &pose, &mut way);
     let farthest = way.iter().fold(0.0f64, |most, way| most.max(way.abs()));
-    (farthest > STEP).then_some(farthest)
+    (farthest > 4.0 * STEP).then_some(farthest)
 }
 
 /// Closes the loops of a pose to rounding, no correction longer than `reach`.
