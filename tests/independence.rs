@@ -228,6 +228,9 @@ fn a_small_four_bar_beside_a_large_one_keeps_its_mobility() {
     assert_none(&wrong);
 }
 
+/// A miss (m) below this is what rounding leaves in fifty digits, and no part's own.
+const ROUNDING: f64 = 1e-40;
+
 /// What was found of the parts of a mechanism that have `own` joints, by the names that these have alone.
 fn parts_of(mechanism: &Mechanism, own: &dyn Fn(&str) -> Option<String>) -> Vec<String> {
     let Ok(analysis) = at_depth(mechanism, Depth::Verdict) else {
@@ -256,7 +259,9 @@ fn parts_of(mechanism: &Mechanism, own: &dyn Fn(&str) -> Option<String>) -> Vec<
                 found.pose(),
                 found.kind(),
                 found.class(),
-                found.nominal()
+                found
+                    .nominal()
+                    .map(|miss| if miss < ROUNDING { 0.0 } else { miss })
             );
         }
         if let Some(rank) = analysis.parts.get(index) {
