@@ -86,6 +86,8 @@ pub(super) struct Group {
     style: Style,
     /// So many zeros at the end may a shorter literal have lost.
     lost: i32,
+    /// Half or more of the literals that nobody chose have the digits of a double, or more.
+    mostly_full: bool,
     /// Whether so few literals are shorter than the longest that all may be rounded to its decimals.
     alike: bool,
     /// Whether so few literals are shorter, in decimals and in digits, that one program printed them all to either.
@@ -130,6 +132,7 @@ impl Default for Group {
             doubles: false,
             style: Style::Either,
             lost: i32::MAX,
+            mostly_full: true,
             alike: true,
             equally_long: false,
         }
@@ -149,7 +152,7 @@ impl Group {
 
     /// Whether it has all the digits of doubles, and not mostly shorter ones of another hand.
     pub fn is_in_full(&self) -> bool {
-        self.significant >= OF_A_DOUBLE && self.lost == i32::MAX
+        self.significant >= OF_A_DOUBLE && self.mostly_full
     }
 
     /// Whether literals that count as exact may all be rounded to the decimals of the longest: no more of them are shorter than zeros
@@ -383,7 +386,10 @@ impl<'a> Literals<'a> {
             Some(size) => Style::Single(size),
             None => self.style(&group),
         };
-        group.lost = self.lost(&group);
+        let computed: Vec<Stated> = self.computed(&group).collect();
+        let in_full = computed.iter().filter(|s| s.significant >= IN_FULL).count();
+        group.mostly_full = 2 * in_full >= computed.len();
+        group.lost = Self::lost(&group, &computed);
         (group.alike, group.equally_long) = self.are_alike(&group);
         group
     }
@@ -427,10 +433,8 @@ impl<'a> Literals<'a> {
 
     /// How many zeros at the end shorter literals may have lost: for each number of zeros, so many literals as lack them have to be
     /// there by chance, if one in ten lacks one, one in a hundred two.
-    fn lost(&self, group: &Group) -> i32 {
-        let computed: Vec<Stated> = self.computed(group).collect();
-        let in_full = computed.iter().filter(|s| s.significant >= IN_FULL).count();
-        if group.doubles && 2 * in_full >= computed.len() {
+    fn lost(group: &Group, computed: &[Stated]) -> i32 {
+        if group.doubles && group.mostly_full {
             // Of a program that prints doubles as short as it can, a short one is what it is.
             return i32::MAX;
         }
