@@ -1,9 +1,9 @@
 //! `kutzbach convert`: what is written reads back as the same mechanism, and what cannot be said is told.
 
-use kutzbach::format::{Reading, read, read_file};
+use kutzbach::format::{Reading, read, read_file, write};
 use kutzbach::mechanism::JointKind;
 use kutzbach::mobility::{AnalysisOptions, analyse};
-use kutzbach::report::convert::{Hinges, relaxed, to_mjcf, to_urdf};
+use kutzbach::report::convert::{Hinges, in_full, relaxed, to_mjcf, to_urdf};
 use kutzbach::report::{Options, report};
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
@@ -220,6 +220,25 @@ fn a_loop_that_is_open_as_drawn_is_told_and_stays_what_it_is() {
     assert_eq!(open.count(), 1, "{:?}", converted.not_said);
     assert_eq!(converted.text.matches("site1=").count(), 2);
     assert!(read(&converted.text, "model.xml", &[]).is_ok());
+}
+
+/// Whether the file moves as what was read is asked of an analysis, which may not be possible.
+#[test]
+fn what_cannot_be_analysed_is_written_and_told() {
+    let text = r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
+      <joint name="j" type="continuous"><parent link="a"/><child link="b"/>
+        <origin xyz="0.312345 0 0" quat_xyzw="0 0 0.382683 0.923880"/><axis xyz="0 0 1"/></joint>
+      <joint name="k" type="continuous"><parent link="a"/><child link="c"/>
+        <origin xyz="0.312345 0 0"/><axis xyz="0 0 1"/></joint>
+      <loop name="l" type="distance"><predecessor link="b"/><successor link="c"/></loop></robot>"#;
+    let reading = read(text, "rod.urdf", &[]).unwrap();
+    let options = AnalysisOptions::default();
+    assert!(analyse(&reading.mechanism, &options).is_err());
+    let found = in_full(&reading.mechanism, &options);
+    assert!(found.assembly.is_none());
+    assert!(found.note.unwrap().contains("points coincide"));
+    let again = read(&write(&found.mechanism), "rod.urdf", &[]).unwrap();
+    assert_eq!(again.mechanism.joints().len(), 3);
 }
 
 #[test]

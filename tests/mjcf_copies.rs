@@ -291,7 +291,8 @@ fn replicates_inside_replicates_multiply() {
 fn what_cannot_be_copied_is_told_with_its_place() {
     let pair = |equality: &str| {
         format!(
-            "<worldbody><body><joint name='o'/></body><replicate count='2' offset='1 0 0'><body name='b'><joint name='j'/></body></replicate></worldbody>\n<equality>{equality}</equality>"
+            "<worldbody><body><joint name='o'/></body><replicate count='2' offset='1 0 0'><body name='b'><joint name='j'/></body></replicate>\
+             <replicate count='3' offset='0 1 0'><body name='c'/></replicate></worldbody>\n<equality>{equality}</equality>"
         )
     };
     for (inside, line, told) in [
@@ -315,7 +316,12 @@ fn what_cannot_be_copied_is_told_with_its_place() {
             4,
             "no type of joint `x`",
         ),
-        (pair("<joint joint1='j' joint2='o'/>"), 2, "`o` is in other copies"),
+        (
+            pair("<joint joint1='j' joint2='o'/>"),
+            2,
+            "`o` is in no <replicate>, and what <joint> names beside it is in one",
+        ),
+        (pair("<weld body1='b' body2='c'/>"), 2, "`c` is in other copies"),
         (pair("<joint joint1='j2' joint2='o'/>"), 2, "no joint `j2`"),
     ] {
         let error = try_model(&inside).unwrap_err();
@@ -325,4 +331,14 @@ fn what_cannot_be_copied_is_told_with_its_place() {
     // By the names of the copies.
     let mixed = model(&pair("<joint joint1='j1' joint2='o'/>"));
     assert_eq!(mixed.mechanism.couplings().len(), 1);
+    // The world is in all copies.
+    for ends in [
+        "body1='b' body2='world'",
+        "body2='b' body1='world'",
+        "body1='b'",
+    ] {
+        let held = model(&pair(&format!("<connect {ends} anchor='0 0 0'/>")));
+        let loops = held.mechanism.joints().iter().filter(|j| j.closes_loop);
+        assert_eq!(loops.count(), 2, "{ends}");
+    }
 }

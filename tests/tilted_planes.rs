@@ -1,10 +1,11 @@
 //! Planar linkages whose plane is tilted at random, as other programs write them: poses as angles and quaternions, in the model, in one
 //! another, in degrees, as points of a hinge. A reader multiplies these poses, and what their digits leave open has to come with them.
 
-use kutzbach::format::{read, write};
+use kutzbach::format::{WriteOptions, read, write};
 use kutzbach::matrix::SplitMix64;
 use kutzbach::mobility::{AnalysisOptions, analyse};
 use kutzbach::report::convert::{Hinges, in_full, to_mjcf, to_sdf};
+use kutzbach::report::{ASSEMBLED, assembled_file};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 /// How a program prints its numbers.
@@ -415,7 +416,7 @@ fn converted_they_are_what_they_were() {
             };
             let text = written(&drawn(seed, kind), print);
             let reading = read(&text, file, &[]).unwrap();
-            let meant = in_full(&reading.mechanism).unwrap();
+            let meant = in_full(&reading.mechanism, &AnalysisOptions::default());
             let is_told = meant.note.is_some();
             assert!(
                 is_told || spoiled || matches!(print, Print::Single),
@@ -431,6 +432,15 @@ fn converted_they_are_what_they_were() {
                 assert_eq!(finite(&text, file), expected, "{seed} {print:?}\n{text}");
                 asked += 1;
             }
+            let assembly = meant.assembly.as_ref().unwrap();
+            let held = assembled_file(mechanism, assembly, &WriteOptions::default()).unwrap();
+            let again = read(&held, "held.urdf", &[]).unwrap();
+            let options = AnalysisOptions {
+                configuration: Some(ASSEMBLED.to_owned()),
+                ..AnalysisOptions::default()
+            };
+            let found = analyse(&again.mechanism, &options).unwrap();
+            assert_eq!(found.mobility.finite(), expected, "{seed}\n{held}");
         }
     }
     assert_eq!(asked, 36);

@@ -5,6 +5,7 @@ use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
 use kutzbach::format::{Numbers, Reading, WriteOptions, write_with};
 use kutzbach::mechanism::Mechanism;
+use kutzbach::mobility::AnalysisOptions;
 use kutzbach::report::convert::{
     Converted, Hinges, in_full, relaxed, to_mjcf, to_pinocchio, to_sdf, to_urdf,
 };
@@ -60,10 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             hinges = Hinges::Body;
         }
     }
-    let found = in_full(&reading.mechanism).map_err(|error| Failure::Plain {
-        message: format!("{}: {error}", arguments.source.file.display()),
-        help: Some("`kutzbach report FILE` tells more".to_owned()),
-    })?;
+    let found = in_full(&reading.mechanism, &AnalysisOptions::default());
     notes.extend(found.note);
     reading.mechanism = found.mechanism;
     let converted = written(&reading, arguments.to, hinges)?;

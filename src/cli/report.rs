@@ -11,9 +11,10 @@ use clap::{Args, ValueEnum};
 use kutzbach::accuracy::AccuracyOptions;
 use kutzbach::format::{Numbers, Reading, WriteOptions, write_with};
 use kutzbach::mechanism::{FreedomPart, Mechanism};
-use kutzbach::mobility::{Analysis, ExactBudget};
+use kutzbach::mobility::{Analysis, AnalysisOptions, ExactBudget};
+use kutzbach::report::convert::in_full;
 use kutzbach::report::html::{Assets, Facts, Prepared};
-use kutzbach::report::text::{Layout, render};
+use kutzbach::report::text::{Layout, render, visible};
 use kutzbach::report::{Options, PlayAsked, Report, ReportDepth, assembled_file};
 use kutzbach::report::{Warning, WarningKind};
 use kutzbach::simulate::verification::{
@@ -288,11 +289,34 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
     };
     arguments.destination.put(&text)?;
-    let written = arguments.written(&reading);
+    write_besides(arguments, &reading, &options, &analysis)?;
+    Ok(match arguments.strict && !report.is_decided() {
+        // The page says that its verification, or its measurement, was broken off.
+        _ if interrupt::asked() => interrupt::INTERRUPTED,
+        true => UNDECIDED,
+        false => DONE,
+    })
+}
+
+/// Writes the mechanism at the pose found, and the nearest one that moves, where these were asked for.
+fn write_besides(
+    arguments: &Arguments,
+    reading: &Reading,
+    options: &Options,
+    analysis: &Analysis,
+) -> Result<(), Failure> {
+    let written = arguments.written(reading);
     let own =
         |mechanism: &Mechanism| arguments.of_file(mechanism, options.configuration.as_deref());
     if let Some(out) = &arguments.write_assembled {
-        let file = assembled_file(&own(&reading.mechanism), &analysis.assembly, &written);
+        let asked = AnalysisOptions {
+            configuration: options.configuration.clone(),
+            closure_tolerance: options.closure_tolerance,
+            ..AnalysisOptions::default()
+        };
+        let meant = in_full(&reading.mechanism, &asked);
+        let assembly = meant.assembly.as_ref().unwrap_or(&analysis.assembly);
+        let file = assembled_file(&own(&meant.mechanism), assembly, &written);
         let file = file.ok_or_else(|| Failure::Plain {
             message: format!(
                 "{}: no closed pose is known, so there is none to write",
@@ -300,6 +324,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             ),
             help: None,
         })?;
+        if let Some(note) = meant.note {
+            eprintln!("note: {}: {}", out.display(), visible(&note));
+        }
         output::put(&file, Some(out))?;
     }
     if let Some(out) = &arguments.nearest {
@@ -315,12 +342,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         })?;
         output::put(&write_with(&own(&nearest.mechanism), &written), Some(out))?;
     }
-    Ok(match arguments.strict && !report.is_decided() {
-        // The page says that its verification, or its measurement, was broken off.
-        _ if interrupt::asked() => interrupt::INTERRUPTED,
-        true => UNDECIDED,
-        false => DONE,
-    })
+    Ok(())
 }
 
 /// The page, with a verification where it was asked for.

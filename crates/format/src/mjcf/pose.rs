@@ -8,7 +8,7 @@ use super::classes::ATTACHED;
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
 use crate::frames::radians_of;
-use crate::quaternion::{FULL, of_columns, product, roll_pitch_yaw, worked_out};
+use crate::quaternion::{of_columns, product, roll_pitch_yaw, worked_out};
 pub(super) use crate::values::{exactly, numbers};
 use kutzbach_math::number::{Number, Quantity};
 use kutzbach_math::space::cross;
@@ -138,7 +138,7 @@ impl Compiler {
             return Some(found);
         }
         let numbers = angles.each_ref().map(|angle| (Quantity::Angle, angle));
-        worked_out(numbers, FULL, |angles| {
+        worked_out(numbers, |angles| {
             let turns = sequence.into_iter().zip(angles);
             Some(turns.fold([0.0, 0.0, 0.0, 1.0], |whole, (letter, angle)| {
                 let mut axis = [0.0; 3];
@@ -234,7 +234,7 @@ impl<'a> Mjcf<'a> {
                     .or_else(|| {
                         let [x, y, z] = [&x, &y, &z].map(|part| (Quantity::Direction, part));
                         let numbers = [x, y, z, (Quantity::Angle, &angle)];
-                        worked_out(numbers, FULL, |[x, y, z, angle]| {
+                        worked_out(numbers, |[x, y, z, angle]| {
                             Some(about(unit([x, y, z])?, angle))
                         })
                     })
@@ -243,7 +243,7 @@ impl<'a> Mjcf<'a> {
             "xyaxes" => {
                 let all: [Number; 6] = exactly(turn)?;
                 let numbers = all.each_ref().map(|part| (Quantity::Direction, part));
-                let found = worked_out(numbers, FULL, |[a, b, c, d, e, f]| {
+                let found = worked_out(numbers, |[a, b, c, d, e, f]| {
                     let (x, y) = (unit([a, b, c])?, [d, e, f]);
                     let along: f64 = (0..3).map(|i| x[i] * y[i]).sum();
                     let y = unit([0, 1, 2].map(|i| y[i] - along * x[i]))?;
@@ -262,7 +262,7 @@ impl<'a> Mjcf<'a> {
 /// The least turn that takes z to a direction of any length.
 pub(super) fn least_turn(direction: [&Number; 3]) -> Option<[Number; 3]> {
     let numbers = direction.map(|part| (Quantity::Direction, part));
-    worked_out(numbers, FULL, |direction| {
+    worked_out(numbers, |direction| {
         let z = unit(direction)?;
         let axis = cross(&[0.0, 0.0, 1.0], &z);
         let sine = axis.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -269,6 +269,8 @@ impl<'a> Plan<'a> {
                 let of = REFERENCES.into_iter();
                 of.filter_map(move |(name, sort)| Some((sort, element.attribute(name)?)))
             })
+            // There is one world.
+            .filter(|(sort, name)| !(*sort == Sort::Body && name.value == super::WORLD))
             .collect();
         let ends_of = |(sort, name): &(Sort, Attribute<'a>)| {
             let key = (*sort, name.value);
@@ -281,12 +283,15 @@ impl<'a> Plan<'a> {
         };
         let is_other =
             |reference: &&(Sort, Attribute<'a>)| ends_of(reference).is_none_or(|own| own != ends);
-        if let Some((_, name)) = references.iter().find(is_other) {
-            let message = format!(
-                "{} is in other copies than what <{}> names beside it",
-                quoted(name.value),
-                part.name()
-            );
+        if let Some(other) = references.iter().find(is_other) {
+            let (_, name) = other;
+            let (own, part) = (quoted(name.value), part.name());
+            let message = match ends_of(other) {
+                Some(_) => format!("{own} is in other copies than what <{part}> names beside it"),
+                None => format!(
+                    "{own} is in no <replicate>, and what <{part}> names beside it is in one"
+                ),
+            };
             return Err(name
                 .fault(message)
                 .help("write one of each pair, by the names of the copies: name, sep and index"));

@@ -5,8 +5,9 @@
 //! the verdict hangs on such digits, the numbers written are those of the nearest mechanism that moves so, in full.
 
 use crate::text::words::metres;
+use kutzbach_closure::Assembly;
 use kutzbach_math::number::Number;
-use kutzbach_mobility::{AnalysisError, AnalysisOptions, Depth, Verdict, analyse_to_follow};
+use kutzbach_mobility::{AnalysisOptions, Depth, Verdict, analyse_to_follow};
 use kutzbach_model::mechanism::{JointId, Mechanism, Placement};
 
 /// A mechanism to be written, and what is to be told of its numbers.
@@ -14,47 +15,60 @@ use kutzbach_model::mechanism::{JointId, Mechanism, Placement};
 pub struct InFull {
     /// The mechanism: the one given, or that meant by its rounded numbers.
     pub mechanism: Mechanism,
+    /// How its loops close; `None` where there was no analysis.
+    pub assembly: Option<Assembly>,
     /// What was changed, or what the file will not say, in a sentence.
     pub note: Option<String>,
 }
 
 /// A mechanism of which a file written in full says what is said of it.
 ///
-/// One without loops, of literals alone, or of exact numbers is as it was, without an analysis. Otherwise this costs an analysis of [`Depth::Verdict`].
-///
-/// # Errors
-/// As [`analyse_to_follow`].
-pub fn in_full(mechanism: &Mechanism) -> Result<InFull, AnalysisError> {
-    let as_it_is = |note: Option<&str>| InFull {
+/// One without loops, of literals alone, or of exact numbers is as it was, without an analysis. Otherwise this costs an analysis with these
+/// options, of [`Depth::Verdict`]. One that cannot be analysed is as it was, which is noted.
+#[must_use]
+pub fn in_full(mechanism: &Mechanism, options: &AnalysisOptions) -> InFull {
+    let as_it_is = |assembly: Option<Assembly>, note: Option<String>| InFull {
         mechanism: mechanism.clone(),
-        note: note.map(str::to_owned),
+        assembly,
+        note,
     };
     if !hangs_on_literals(mechanism) {
-        return Ok(as_it_is(None));
+        return as_it_is(None, None);
     }
     let options = AnalysisOptions {
         depth: Depth::Verdict,
-        ..AnalysisOptions::default()
+        ..options.clone()
     };
-    let found = analyse_to_follow(mechanism, &options)?;
+    let found = match analyse_to_follow(mechanism, &options) {
+        Ok(found) => found,
+        Err(error) => {
+            let note = format!(
+                "poses that were worked out from rounded numbers are written in full, and whether the file moves as the one read is not known: {error}"
+            );
+            return as_it_is(None, Some(note));
+        }
+    };
     if let Some(changed) = found.changed {
         let note = format!(
             "poses that were worked out from rounded numbers are written in full: as the nearest dimensions that move, up to {} from those read",
             metres(changed)
         );
-        return Ok(InFull {
+        return InFull {
             mechanism: found.mechanism,
+            assembly: Some(found.analysis.assembly),
             note: Some(note),
-        });
+        };
     }
     let mobility = &found.analysis.mobility;
     // Without a distance no such dimensions were found.
     let nominal = mobility.nominal.as_ref();
     let may_bind = nominal.is_some_and(|own| own.within_digits || own.distance.is_none());
     let is_open = mobility.verdict == Verdict::Undecided || may_bind;
-    Ok(as_it_is(is_open.then_some(
-        "poses that were worked out from rounded numbers are written in full, as if they were exact: what moves within the digits of these may bind",
-    )))
+    let note = is_open.then(|| {
+        "poses that were worked out from rounded numbers are written in full, as if they were exact: what moves within the digits of these may bind"
+            .to_owned()
+    });
+    as_it_is(Some(found.analysis.assembly), note)
 }
 
 /// Whether numbers of joints in loops are rounded, and some are worked out from others.
