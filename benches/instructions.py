@@ -4,7 +4,8 @@
 
 builds the cases as `cargo bench` does, counts, and writes the record benches/record/instructions.json and the table of
 docs/src/speed.md. `--only WORD` counts the cases whose name contains the word anew and keeps the rest; `--page` counts
-nothing and writes the table from the record; `--print` counts twice and writes nothing but the largest difference.
+nothing and writes the table from the record; `--print` counts twice and writes nothing but the largest difference;
+`--sweeps` counts rows of sweeps beside files by themselves, and prints the table of docs/src/speed.md that shows them.
 
 A case is run without repetitions and with some. The difference is theirs alone: starting the program and making the case
 ready are in both. Needed are cargo and valgrind, and nothing beyond Python's standard library.
@@ -22,6 +23,8 @@ RECORD = ROOT / "benches" / "record" / "instructions.json"
 PAGE = ROOT / "docs" / "src" / "speed.md"
 BEGIN, END = "<!-- instructions: begin -->", "<!-- instructions: end -->"
 REPETITIONS = 4
+# Every run of a sweep is of another member of the family.
+MEMBERS = 20
 # Hash tables are seeded at random, which is some dozen instructions up or down: small cases are averaged over more runs.
 SMALL, MANY = 200_000, 100
 
@@ -41,8 +44,8 @@ def executable(lines):
     raise SystemExit("cargo built no bench called instructions")
 
 
-def cases(program):
-    return subprocess.run([program], stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
+def cases(program, *which):
+    return subprocess.run([program, *which], stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
 
 
 def collected(said):
@@ -62,9 +65,9 @@ def count(program, case, repetitions):
     return collected(run.stderr)
 
 
-def per_run(program, case):
+def per_run(program, case, repetitions=REPETITIONS):
     nothing = count(program, case, 0)
-    found = (count(program, case, REPETITIONS) - nothing) / REPETITIONS
+    found = (count(program, case, repetitions) - nothing) / repetitions
     if found < SMALL:
         found = (count(program, case, MANY) - nothing) / MANY
     return round(found)
@@ -105,6 +108,19 @@ def table(record):
     return "\n".join(lines)
 
 
+def sweeps(counts):
+    """Thousands of instructions of a member, by family: a table from {"rank of a row/robot": 1}."""
+    families = {}
+    for name, value in counts.items():
+        stage, family = name.split("/", 1)
+        families.setdefault(family, {})[stage] = value
+    stages = list(next(iter(families.values())))
+    lines = ["| family | " + " | ".join(stages) + " |", "|---" * (len(stages) + 1) + "|"]
+    for family, own in families.items():
+        lines.append(f"| {family} | " + " | ".join(f"{own[stage] / 1e3:,.0f}" for stage in stages) + " |")
+    return "\n".join(lines)
+
+
 def replaced(page, record):
     before, begin, rest = page.partition(BEGIN)
     _, end, after = rest.partition(END)
@@ -128,14 +144,19 @@ def main():
     parser.add_argument("--only", metavar="WORD", help="count only cases whose name contains this, keep the others")
     parser.add_argument("--page", action="store_true", help="write the page from the record")
     parser.add_argument("--print", action="store_true", help="count twice and print how far the counts differ")
+    parser.add_argument("--sweeps", action="store_true", help="count rows of sweeps and files by themselves, and print their table")
     parser.add_argument("--program", help="a built bench, instead of building it")
     options = parser.parse_args()
     if options.page:
         write_page(kept())
         return
-    if not options.print and not (options.date and options.machine):
+    if not options.print and not options.sweeps and not (options.date and options.machine):
         parser.error("--date and --machine are needed for the record")
     program = options.program or build()
+    if options.sweeps:
+        names = [name for name in cases(program, "sweeps") if (options.only or "") in name]
+        print(sweeps({name: per_run(program, name, MEMBERS) for name in names}))
+        return
     names = cases(program)
     wanted = [name for name in names if (options.only or "") in name]
     counts = {}

@@ -147,6 +147,12 @@ class Instructions(unittest.TestCase):
         page = instructions.PAGE.read_text(encoding="utf-8")
         self.assertEqual(instructions.replaced(page, instructions.kept()), page, "python3 benches/instructions.py --page")
 
+    def test_sweeps_are_shown_by_family(self):
+        counts = {"rank of a file/robot": 6_051_400, "rank of a row/robot": 2_217_000, "rank of a file/six legs": 900, "rank of a row/six legs": 400}
+        shown = instructions.sweeps(counts).splitlines()
+        self.assertEqual(shown[0], "| family | rank of a file | rank of a row |")
+        self.assertEqual(shown[1:], ["|---|---|---|", "| robot | 6,051 | 2,217 |", "| six legs | 1 | 0 |"])
+
     def test_a_page_without_its_markers_is_refused(self):
         for page in ("", instructions.BEGIN, instructions.END):
             with self.assertRaises(SystemExit):

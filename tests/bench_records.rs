@@ -59,6 +59,16 @@ fn every_case_finds_what_is_known() {
     support::assert_none(&wrong);
 }
 
+/// Members of the families have an answer, each as a row and as a file.
+#[test]
+fn members_of_the_families_are_analysed() {
+    support::in_parallel(&list::sweeps(), |(name, case, stage)| {
+        let mut job = stage(case);
+        let found: usize = (0..5).map(|_| job()).sum();
+        assert_eq!(found, 5, "{name}/{case}");
+    });
+}
+
 /// What the list says of the two charts.
 #[test]
 fn one_chart_is_decided_in_double_precision_and_one_is_not() {

@@ -1,6 +1,8 @@
 //! The cases whose instructions are counted: those that must not regress.
 
+use super::cases::FAMILIES;
 use super::jobs::{self, Job};
+use kutzbach::mobility::Depth;
 
 /// What makes a case of a stage ready.
 pub type Stage = fn(&str) -> Job;
@@ -38,4 +40,16 @@ pub fn all() -> Vec<(&'static str, &'static str, Stage)> {
         .into_iter()
         .flat_map(|(stage, job, cases)| cases.iter().map(move |case| (stage, *case, job)))
         .collect()
+}
+
+/// Rows of sweeps, beside files by themselves: a run is of one member. They are counted side by side when asked for, and are in no record.
+pub fn sweeps() -> Vec<(&'static str, &'static str, Stage)> {
+    let stages: [(&str, Stage); 4] = [
+        ("rank of a file", |case| jobs::file(case, Depth::Rank)),
+        ("rank of a row", |case| jobs::row(case, Depth::Rank)),
+        ("verdict of a file", |case| jobs::file(case, Depth::Verdict)),
+        ("verdict of a row", |case| jobs::row(case, Depth::Verdict)),
+    ];
+    let of_family = |case| stages.map(|(stage, job)| (stage, case, job));
+    FAMILIES.into_iter().flat_map(of_family).collect()
 }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cargo bench -p kutzbach-benches --bench instructions                      # lists the cases
+//! cargo bench -p kutzbach-benches --bench instructions -- sweeps            # lists those of sweeps
 //! cargo bench -p kutzbach-benches --bench instructions -- rank/bennett 5    # runs one five times
 //! python3 benches/instructions.py --date DATE --machine MACHINE
 //! ```
@@ -27,15 +28,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         .filter(|argument| !argument.starts_with("--"))
         .collect();
     match arguments.as_slice() {
-        [] => {
-            for (stage, case, _) in list::all() {
-                println!("{stage}/{case}");
-            }
-        }
+        [] => print_names(&list::all()),
+        [which] if which == "sweeps" => print_names(&list::sweeps()),
         [name, repetitions] => {
             let repetitions: usize = repetitions.parse()?;
             let (_, case, stage) = list::all()
                 .into_iter()
+                .chain(list::sweeps())
                 .find(|(stage, case, _)| format!("{stage}/{case}") == *name)
                 .ok_or_else(|| format!("there is no case `{name}`"))?;
             let mut job = stage(case);
@@ -46,4 +45,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => return Err("needed are a case and how often it is to run".into()),
     }
     Ok(())
+}
+
+fn print_names(cases: &[(&str, &str, list::Stage)]) {
+    for (stage, case, _) in cases {
+        println!("{stage}/{case}");
+    }
 }

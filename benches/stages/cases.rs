@@ -43,6 +43,32 @@ fn file(case: &str) -> Option<&'static str> {
     })
 }
 
+/// Families whose members are asked one after the other.
+pub const FAMILIES: [&str; 4] = ["four bar", "bennett", "six legs", "robot"];
+
+/// The file of a family, and the ranges of its measures; all members of these can be assembled.
+pub fn family(case: &str) -> Option<(&'static str, &'static [&'static str])> {
+    Some(match case {
+        "four bar" => (
+            include_str!("../families/four_bar.urdf"),
+            &["a=0.5..1.5", "b=1.5..3", "c=1.5..3"],
+        ),
+        "bennett" => (
+            include_str!("../../mechanisms/bennett_isogram.urdf"),
+            &["p=0.5..3", "q=0.5..3", "h=0.1..1"],
+        ),
+        "six legs" => (
+            include_str!("../families/six_legs.urdf"),
+            &["foot=0.2..0.4"],
+        ),
+        "robot" => (
+            include_str!("../families/robot.urdf"),
+            &["crank=0.02..0.06", "rod=0.28..0.32"],
+        ),
+        _ => return None,
+    })
+}
+
 /// The text of a case as a mechanism file.
 pub fn text(case: &str) -> String {
     file(case).map_or_else(

@@ -2,17 +2,19 @@
 //!
 //! Shared by `--bench stages`, which times some of them, and `--bench instructions`, which runs one so often.
 
-use super::cases::{Standing, mechanism, text};
+use super::cases::{Standing, family, mechanism, text};
 use kutzbach::algebra::{Budget, ExactOptions, SystemOptions, exact_answer, polynomial_system};
+use kutzbach::format::{ReadOptions, read_bytes_of};
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{
-    AnalysisOptions, ChartOutcome, ChartTest, Germ, GermZeroOptions, Kernel, MoreDigits, PartRank,
-    Pose, Structure, Trial, analyse, chart_test, germ_zeros, rank_part,
+    AnalysisOptions, ChartOutcome, ChartTest, Depth, Germ, GermZeroOptions, Kernel, MoreDigits,
+    PartRank, Pose, Structure, Trial, analyse, chart_test, germ_zeros, rank_part,
 };
 use kutzbach::motion::{TraceOptions, trace};
 use kutzbach::report::text::{Layout, render};
 use kutzbach::report::{Input, Options, analysed_report_on};
 use kutzbach::simulate::{Drive, World, WorldOptions};
+use kutzbach::sweep::{Family, MeasuredFile, Outcome, Over, Plan, Sample, Status, outcome};
 use std::hint::black_box;
 
 /// Something to be run; what it found, in a number, so that a test can tell that it found something.
@@ -26,6 +28,9 @@ const DEGREE: usize = 4;
 
 /// Poses of a trace.
 const POSES: usize = 100;
+
+/// Members of a family, at random points of its ranges, always the same.
+const MEMBERS: u64 = 1000;
 
 /// Steps of a simulation.
 const STEPS: usize = 100;
@@ -283,4 +288,71 @@ pub fn written_report(case: &str) -> Job {
     let (report, _) =
         analysed_report_on(&input, &Options::default()).expect("the home pose exists");
     Box::new(move || render(black_box(&report), Layout::default()).len())
+}
+
+/// A row of a sweep, whose file is parsed and whose structure is known; every run is of the next member.
+pub fn row(case: &str, depth: Depth) -> Job {
+    // Members borrow their family, and a job is its own.
+    let family: &'static Family = Box::leak(Box::new(swept(case, depth)));
+    let members = family.members();
+    members.row(0).expect("there are members");
+    let mut numbers = (0..MEMBERS).cycle();
+    Box::new(move || {
+        let row = numbers.next().and_then(|number| members.row(number));
+        is_analysed(&black_box(row.expect("there are members")).outcome)
+    })
+}
+
+/// The same of a file by itself, made anew; every run is of the next member.
+pub fn file(case: &str, depth: Depth) -> Job {
+    let family = swept(case, depth);
+    let mut numbers = (0..MEMBERS).cycle();
+    Box::new(move || {
+        let number = numbers.next().expect("they begin again");
+        is_analysed(&black_box(of_own_file(&family, number)))
+    })
+}
+
+fn is_analysed(found: &Outcome) -> usize {
+    usize::from(found.status == Status::Analysed)
+}
+
+fn swept(case: &str, depth: Depth) -> Family {
+    let (text, over) = family(case).expect("it is a family");
+    let over: Result<Vec<Over>, _> = over.iter().map(|own| Over::read(own)).collect();
+    let over = over.expect("the ranges are written right");
+    let plan = Plan::new(over, Some(Sample::Random(MEMBERS))).expect("each measure is there once");
+    Family::new(MeasuredFile::of_text(text, case), plan, asked(depth))
+        .expect("the file is part of the repository")
+}
+
+fn asked(depth: Depth) -> AnalysisOptions {
+    AnalysisOptions {
+        depth,
+        ..AnalysisOptions::default()
+    }
+}
+
+fn of_own_file(family: &Family, number: u64) -> Outcome {
+    let source = family.source();
+    let mut text = String::from_utf8_lossy(&source.bytes).into_owned();
+    let values = family.plan().values(number).expect("there are members");
+    for (name, value) in family.plan().names().zip(&values) {
+        text = with_value(&text, name, &value.setting);
+    }
+    let read = read_bytes_of(text.as_bytes(), &source.file, None, &ReadOptions::default());
+    let mechanism = read.expect("every member is a mechanism").mechanism;
+    let analysis = analyse(&mechanism, &asked(family.depth())).expect("coordinates are in range");
+    outcome(&mechanism, &analysis, family.depth())
+}
+
+/// The file with another value where it names a measure.
+fn with_value(text: &str, name: &str, value: &str) -> String {
+    let heads = ["default", "value"].map(|own| format!("name=\"{name}\" {own}=\""));
+    let ends = heads
+        .iter()
+        .find_map(|head| Some(text.find(head)? + head.len()));
+    let (before, after) = text.split_at(ends.expect("the file names it"));
+    let (_, after) = after.split_once('"').expect("the value ends");
+    format!("{before}{value}\"{after}")
 }

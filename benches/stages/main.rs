@@ -24,6 +24,7 @@ mod parse;
 mod rank;
 mod report;
 mod simulate;
+mod sweep;
 mod trace;
 
 fn main() {

@@ -1,10 +1,15 @@
-"""The stub of the compiled part says what its Rust code says: names, arguments and types, read from both."""
+"""The stub of the compiled part, and the questions put to it, say what its Rust code says: read from both."""
 
 import ast
+import inspect
 import re
+from collections.abc import Callable
 from pathlib import Path
 
+import kutzbach
 import pytest
+from kutzbach import _ask
+from kutzbach.sweeps import planned
 
 PROJECT = Path(__file__).resolve().parents[2]
 
@@ -113,3 +118,54 @@ def test_a_difference_is_found() -> None:
     assert of_rust(source) == of_stub("def read(path: str) -> Reading: ...")
     assert of_rust(source) != of_stub("def read(path: int) -> Reading: ...")
     assert of_rust(source) != of_stub("def read(path: str, more: str) -> Reading: ...")
+
+
+QUESTIONS = {
+    kutzbach.load: "Read",
+    kutzbach.analyse: "Analyse",
+    kutzbach.trace: "Follow",
+    kutzbach.assemble: "Assemble",
+    kutzbach.exact: "Prove",
+    kutzbach.simulate: "Simulate",
+    planned: "Vary",
+}
+"""Functions that ask, and what the compiled part reads of the question."""
+
+
+def questions() -> dict[str, dict[str, str]]:
+    """Fields and their types of all questions that the compiled part reads."""
+    path = PROJECT / "python" / "src" / "asked.rs"
+    if not path.exists():
+        pytest.skip("the sources are not here")
+    structures = re.finditer(r"pub struct (\w+) \{\n(.*?)\n\}", path.read_text(), re.DOTALL)
+    return {own[1]: dict(re.findall(r"pub (\w+): (.*),", own[2])) for own in structures}
+
+
+@pytest.mark.parametrize("function", QUESTIONS, ids=lambda function: function.__name__)
+def test_what_is_asked_is_what_is_read(function: Callable[..., object]) -> None:
+    body = ast.parse(inspect.getsource(function))
+    calls = [own for own in ast.walk(body) if isinstance(own, ast.Call) and ast.unparse(own.func) == "asked"]
+    assert [{keyword.arg for keyword in call.keywords} for call in calls] == [set(questions()[QUESTIONS[function]])]
+
+
+def test_answers_are_checked_by_their_types() -> None:
+    kinds = {"f64": _ask.REALS, "u64": _ask.COUNTS, "usize": _ask.COUNTS, "String": _ask.WORDS, "bool": _ask.FLAGS}
+    seen = set()
+    for fields in questions().values():
+        for name, rust in fields.items():
+            plain = re.sub(r"^Option<(\w+)>$", r"\1", rust)
+            listed = [kind for kind in set(kinds.values()) if name in kind]
+            assert listed == ([kinds[plain]] if plain in kinds else []), f"{name}: {rust}"
+            seen.add(name)
+    assert frozenset(seen) >= _ask.REALS | _ask.COUNTS | _ask.WORDS | _ask.FLAGS
+
+
+def test_defaults_are_those_of_the_compiled_part() -> None:
+    written = (PROJECT / "python" / "src" / "asked.rs").read_text()
+    default = re.search(r"impl Default for Follow \{.*?Self \{(.*?)\}", written, re.DOTALL)
+    assert default is not None
+    stated = dict(re.findall(r"(\w+): (.*),", default[1]))
+    known = {"None": None, "Vec::new()": ()}
+    for name, parameter in inspect.signature(kutzbach.trace).parameters.items():
+        if name != "mechanism":
+            assert parameter.default == (known[stated[name]] if stated[name] in known else float(stated[name])), name

@@ -83,7 +83,7 @@ impl<R: Real> WalkedCycle<R> {
                 .iter()
                 .map(|(joint, _)| &geometry.uncertainties[*joint]),
         );
-        let arm = match geometry.arm(cycle) {
+        let arm = || match geometry.arm(cycle) {
             0.0 => cycle
                 .first()
                 .map_or(0.0, |(joint, _)| geometry.arms[*joint]),
@@ -168,12 +168,12 @@ impl<R: Real> WalkedCycle<R> {
 /// The point minimises `Σ |(I − u uᵀ)(c − p)|²`. Where that leaves a direction open (all axes parallel) it stays at the
 /// mean of the axis points along that direction. Where no length is left because all axes meet in a point, as far as
 /// rounding and stated precision let that be seen, the size of the set of axis points serves, then the RMS pitch, then `arm`, the
-/// length of the longest link that has one for sure (m; 0 if none has, see [`Geometry::arm`]), then `reach`, the largest
-/// coordinate met (m); finally 1 m. What rounding leaves of coordinates up to `reach` is no length.
+/// length of the longest link that has one for sure (m; 0 if none has, see [`Geometry::arm`]; asked for here only), then `reach`,
+/// the largest coordinate met (m); finally 1 m. What rounding leaves of coordinates up to `reach` is no length.
 pub fn characteristic_length<'a, R: Real + 'a>(
     screws: impl Iterator<Item = &'a PlacedScrew<R>>,
     reach: f64,
-    arm: f64,
+    arm: impl FnOnce() -> f64,
     uncertainty: &Uncertainty,
 ) -> ([f64; 3], f64) {
     use nalgebra::{Matrix3, Vector3};
@@ -195,6 +195,7 @@ pub fn characteristic_length<'a, R: Real + 'a>(
         .collect();
     if axes.is_empty() {
         // Translations only: the rank has no length in it, and any positive one will do.
+        let arm = arm();
         return ([0.0; 3], if arm > least { arm } else { unit });
     }
     let count = axes.len() as f64;
@@ -229,16 +230,16 @@ pub fn characteristic_length<'a, R: Real + 'a>(
     // by about their uncertainty together, of which four times is hardly ever exceeded.
     let places = (4.0 * uncertainty.lengths).max(least) / unit;
     let tilts = 4.0 * uncertainty.angles * size;
+    let is_length = |length: f64, least: f64| length > least && length > 1e-9 && length.is_finite();
     let length = [
         (spread, (1e-3 * size).max(places + tilts)),
         (size, places),
         (pitch, places),
-        (arm / unit, least / unit),
-        (1.0, 0.0),
     ]
     .into_iter()
-    .find(|(length, least)| *length > *least && *length > 1e-9 && length.is_finite())
-    .map_or(1.0, |(length, _)| length);
+    .find_map(|(length, least)| is_length(length, least).then_some(length))
+    .or_else(|| Some(arm() / unit).filter(|&arm| is_length(arm, least / unit)))
+    .unwrap_or(1.0);
     ((centre * unit).into(), length * unit)
 }
 
@@ -269,7 +270,7 @@ mod tests {
     }
 
     fn scale_of(screws: &[PlacedScrew<f64>], reach: f64) -> ([f64; 3], f64) {
-        characteristic_length(screws.iter(), reach, 0.0, &Uncertainty::default())
+        characteristic_length(screws.iter(), reach, || 0.0, &Uncertainty::default())
     }
 
     #[test]
@@ -376,9 +377,10 @@ mod tests {
             lengths: 24f64.sqrt() * 0.5e-6,
             angles: 0.0,
         };
-        let (_, length) = characteristic_length(screws.iter(), 0.3, 0.0, &stated);
+        let (_, length) = characteristic_length(screws.iter(), 0.3, || 0.0, &stated);
         assert_eq!(length, 0.3);
-        let (_, length) = characteristic_length(screws.iter(), 0.3, 0.0, &Uncertainty::default());
+        let (_, length) =
+            characteristic_length(screws.iter(), 0.3, || 0.0, &Uncertainty::default());
         assert!(length < 1e-6, "taken literally they do");
     }
 

@@ -55,10 +55,10 @@ pub fn positional_jacobian<R: Real>(
     let (_, length) = characteristic_length(
         placed.iter().flat_map(|(_, _, screws)| screws),
         reach,
-        part.joints
-            .iter()
-            .map(|&j| geometry.arms[j])
-            .fold(0.0, f64::max),
+        || {
+            let arms = part.joints.iter().map(|&j| geometry.arms[j]);
+            arms.fold(0.0, f64::max)
+        },
         &uncertainty,
     );
     let inverse_length = one.constant(1.0 / length);

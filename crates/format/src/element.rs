@@ -2,7 +2,7 @@
 
 use super::error::{Fault, Outcome};
 use super::words::{alternatives, cut, did_you_mean, quoted};
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 use std::ops::Range;
 
 /// Whose an element is, by its namespace.
@@ -44,6 +44,21 @@ impl<'a> Element<'a> {
             node: document.root_element(),
             text,
         }
+    }
+
+    /// The element of a document that was there under this number.
+    pub(super) fn numbered(
+        document: &'a roxmltree::Document<'a>,
+        text: &'a str,
+        number: NodeId,
+    ) -> Option<Self> {
+        let node = document.get_node(number)?;
+        Some(Self { node, text })
+    }
+
+    /// Its number in the document.
+    pub(super) fn number(&self) -> NodeId {
+        self.node.id()
     }
 
     /// The name without its prefix.

@@ -10,7 +10,7 @@ use super::values::LARGEST;
 use super::{ReadOptions, number_text, reader};
 use kutzbach_math::number::{Number, View};
 use kutzbach_model::mechanism::Mechanism;
-use roxmltree::Document;
+use roxmltree::{Document, NodeId};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
@@ -47,6 +47,8 @@ pub(super) struct Skeleton {
     /// The expressions, each once.
     texts: Vec<String>,
     slots: Vec<Slot>,
+    /// The elements that name numbers.
+    definitions: Vec<NodeId>,
 }
 
 impl Skeleton {
@@ -66,6 +68,11 @@ impl Skeleton {
         let mut skeleton = Self {
             texts: Vec::new(),
             slots: Vec::new(),
+            definitions: root
+                .elements()
+                .filter(|child| child.owner(root.namespace()) == Owner::Xacro)
+                .map(|child| child.number())
+                .collect(),
             mechanism,
         };
         skeleton.find_slots()?;
@@ -108,9 +115,12 @@ impl Skeleton {
         spare: Option<Mechanism>,
     ) -> Option<Mechanism> {
         let root = Element::root(document, text);
-        let children: Vec<Element<'_>> = root.elements().collect();
+        let numbers = self.definitions.iter();
+        let children: Option<Vec<Element<'_>>> = numbers
+            .map(|&number| Element::numbered(document, text, number))
+            .collect();
         let mut definitions = Definitions::default();
-        definitions.read(root, &children, settings, &[]).ok()?;
+        definitions.read(root, &children?, settings, &[]).ok()?;
         let mut values = Vec::with_capacity(self.texts.len());
         for text in &self.texts {
             let value = number_text::number(text, &mut definitions).ok()?;

@@ -277,7 +277,7 @@ fn size_of(
     let (_, length) = characteristic_length(
         screws.iter(),
         geometry.size_of(moving),
-        geometry.arms.iter().copied().fold(0.0, f64::max),
+        || geometry.arms.iter().copied().fold(0.0, f64::max),
         &Uncertainty::default(),
     );
     if length > 1e-50 && length < 1e50 {

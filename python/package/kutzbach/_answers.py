@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, KeysView, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _kutzbach
-from ._ask import Value, asked, value_text
-from ._mechanism import Mechanism, framed
+from ._ask import Value, asked, missing, names, table, value_text
+from ._mechanism import Mechanism, compiled, framed
 
 if TYPE_CHECKING:
     import networkx
@@ -35,8 +35,22 @@ class Answer:
         return data
 
     def __getitem__(self, field: str) -> Any:
-        """One field of :meth:`to_dict`."""
-        return self._data[field]
+        """One field of :meth:`to_dict`; ``KeyError`` where there is none."""
+        try:
+            return self._data[field]
+        except KeyError:
+            raise missing("field", field, self._data) from None
+
+    def keys(self) -> KeysView[str]:
+        """Names of the fields."""
+        return self._data.keys()
+
+    def __contains__(self, field: object) -> bool:
+        return field in self._data
+
+    def __iter__(self) -> Iterator[Any]:
+        """Names of the fields."""
+        return iter(self._data)
 
 
 @dataclass(frozen=True)
@@ -85,6 +99,7 @@ class Analysis(Answer):
         facts: str,
         analysed: _kutzbach.Analysed | None,
         configuration: str | None,
+        question: str,
     ) -> None:
         super().__init__(text)
         self.mechanism = mechanism
@@ -94,6 +109,15 @@ class Analysis(Answer):
         self._facts: dict[str, Any] = json.loads(facts)
         self._analysed = analysed
         self._configuration = configuration
+        self._question = question
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The compiled part stays where it was made.
+        return {**self.__dict__, "_analysed": None}
+
+    @property
+    def _is_whole(self) -> bool:
+        return self.depth == "everything"
 
     @property
     def status(self) -> str:
@@ -175,7 +199,7 @@ class Analysis(Answer):
     @cached_property
     def branches(self) -> tuple[Branch, ...] | None:
         """The branches; none for an isolated assembly. At depth ``"everything"``."""
-        told = self._data.get("branches") if self._analysed else None
+        told = self._data.get("branches") if self._is_whole else None
         return None if told is None else tuple(_branch(own) for own in told)
 
     @property
@@ -191,18 +215,21 @@ class Analysis(Answer):
     @property
     def certificate(self) -> str | None:
         """What the verdict rests on. At depth ``"everything"``."""
-        told = self._data["mobility"]["certificate"] if self._analysed else None
+        told = self._data["mobility"]["certificate"] if self._is_whole else None
         return None if told is None else str(told["text"])
 
     @property
     def why(self) -> tuple[str, ...]:
         """Why the verdict is open, if it is. At depth ``"everything"``."""
-        return tuple(self._data["mobility"]["why"]) if self._analysed else ()
+        return tuple(self._data["mobility"]["why"]) if self._is_whole else ()
 
     def text(self, width: int = 100, verbose: bool = False) -> str:
         """The report for a person, at depth ``"everything"``; a line at any other."""
-        if self._analysed is None:
+        if not self._is_whole:
             return repr(self)
+        if self._analysed is None:
+            # It came out of another process: the same question has the same answer.
+            self._analysed = compiled(self.mechanism).analyse(self._question)
         return self._analysed.text(width, verbose)
 
     def to_networkx(self) -> networkx.MultiGraph[str]:
@@ -210,7 +237,7 @@ class Analysis(Answer):
         from ._graph import graph
 
         links, ground = self.mechanism.links, self.mechanism.ground
-        if self._analysed is not None:
+        if self._is_whole:
             return graph(links, ground, self._data["joints"])
         locked = self.locked
         joints = [
@@ -246,7 +273,7 @@ class Analysis(Answer):
         return None if count is None else int(count)
 
     def _of_freedoms(self, field: str) -> int | None:
-        told = self._data.get("freedoms") if self._analysed else None
+        told = self._data.get("freedoms") if self._is_whole else None
         return None if told is None else int(told[field])
 
 
@@ -277,22 +304,24 @@ def analyse(
     >>> kutzbach.analyse(arm, "verdict")
     <Analysis of 'arm': mobile, freedom 1, instantaneous 1>
     """
+    reading = compiled(mechanism)
+    pairs = [list(own) for own in between]
     question = asked(
         depth=depth,
         configuration=configuration,
         closure_tolerance=closure_tolerance,
         exact=exact,
-        inputs=list(inputs),
-        between=[list(own) for own in between],
+        inputs=names(inputs),
+        between=pairs,
         evidence=evidence,
     )
     if depth != "everything":
-        if inputs or between or evidence:
+        if len(inputs) or pairs or evidence:
             raise ValueError('`inputs`, `between` and `evidence` need depth="everything"')
-        facts = mechanism._reading.facts(question)
-        return Analysis(mechanism, depth, facts, facts, None, configuration)
-    analysed = mechanism._reading.analyse(question)
-    return Analysis(mechanism, depth, analysed.json(), analysed.facts(), analysed, configuration)
+        facts = reading.facts(question)
+        return Analysis(mechanism, depth, facts, facts, None, configuration, question)
+    analysed = reading.analyse(question)
+    return Analysis(mechanism, depth, analysed.json(), analysed.facts(), analysed, configuration, question)
 
 
 class Configurations(Answer):
@@ -316,6 +345,10 @@ class Configurations(Answer):
     def __len__(self) -> int:
         return len(self._data["solutions"])
 
+    def __iter__(self) -> Iterator[dict[str, float]]:
+        """The values of all joints, configuration by configuration."""
+        return iter(self.joints)
+
     def __repr__(self) -> str:
         known = "proven" if self.proven else "not known to be all"
         return f"<Configurations of {self._data['mechanism']!r}: {len(self)}, {known}>"
@@ -332,8 +365,8 @@ def assemble(
     `hold` are joints and the values that they are held at (rad, m); a set of inputs where they are drawn if not given; ``{}`` holds
     none. `budget` is the work in seconds of a usual machine (10 if not given).
     """
-    held = None if hold is None else [[joint, value_text(value)] for joint, value in hold.items()]
-    return Configurations(mechanism._reading.assemble(asked(hold=held, budget=budget)))
+    held = None if hold is None else [[joint, value_text(value)] for joint, value in table("hold", hold).items()]
+    return Configurations(compiled(mechanism).assemble(asked(hold=held, budget=budget)))
 
 
 class Proof(Answer):
@@ -362,7 +395,7 @@ def exact(
 
     `budget` is the work in seconds of a usual machine (30 if not given), the same on every machine.
     """
-    return Proof(mechanism._reading.exact(asked(configuration=configuration, budget=budget)))
+    return Proof(compiled(mechanism).exact(asked(configuration=configuration, budget=budget)))
 
 
 class Simulation(Answer):
@@ -402,7 +435,7 @@ def simulate(
         configuration=configuration,
         closure_tolerance=closure_tolerance,
     )
-    return Simulation(mechanism._reading.simulate(question))
+    return Simulation(compiled(mechanism).simulate(question))
 
 
 def explain(word: str) -> str | None:

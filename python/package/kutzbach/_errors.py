@@ -69,3 +69,6 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, done: Any) -> None:
         super().__init__("interrupted")
         self.done = done
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Interrupted, (self.done,))

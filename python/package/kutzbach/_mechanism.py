@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _kutzbach
-from ._ask import Exact, Value, asked, exact, value_text
+from ._ask import Exact, Value, asked, exact, missing, table, value_text
 
 if TYPE_CHECKING:
     import networkx
@@ -165,7 +165,7 @@ class Mechanism:
         for joint in self.joints:
             if joint.name == name:
                 return joint
-        raise KeyError(name)
+        raise missing("joint", name, (joint.name for joint in self.joints))
 
     def native(self) -> str:
         """The mechanism in kutzbach's own format, numbers as they were written."""
@@ -193,6 +193,14 @@ class Mechanism:
 
     def _repr_html_(self) -> str:
         return framed(self.page())
+
+
+def compiled(mechanism: Mechanism) -> _kutzbach.Reading:
+    """The compiled part of a mechanism; ``TypeError`` where it is none."""
+    if not isinstance(mechanism, Mechanism):
+        found = type(mechanism).__name__
+        raise TypeError(f"needed a Mechanism, found a value of type {found}: kutzbach.load reads a file or a text")
+    return mechanism._reading
 
 
 def _edge(joint: Joint) -> dict[str, Any]:
@@ -249,12 +257,14 @@ def load(
     >>> arm.joint("shoulder").predecessor.position[0]
     'sqrt(2)'
     """
-    values = {**(measures or {}), **more}
+    if not isinstance(source, str | os.PathLike):
+        raise TypeError(f"needed a path or a text, found a value of type {type(source).__name__}")
+    values = {**table("measures", measures or {}), **more}
     question = asked(
         settings=[[own, value_text(value)] for own, value in values.items()],
         literal=literal,
         precision=precision,
-        packages=[[own, os.fspath(path)] for own, path in (packages or {}).items()],
+        packages=[[own, os.fspath(path)] for own, path in table("packages", packages or {}).items()],
         strict=strict,
     )
     text = isinstance(source, str) and ("<" in source or "\n" in source)

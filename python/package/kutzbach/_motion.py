@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _kutzbach
-from ._ask import asked, pair
-from ._mechanism import Mechanism
+from ._ask import asked, missing, names, pair
+from ._mechanism import Mechanism, compiled
 
 if TYPE_CHECKING:
     import numpy
@@ -18,13 +18,22 @@ if TYPE_CHECKING:
     Array = NDArray[numpy.float64]
 
 
+ARRAYS = ("values", "poses", "drive", "arclength", "closure")
+
+
 class Trace:
     """A branch followed: arrays with a row for each sample."""
 
     def __init__(self, traced: _kutzbach.Traced) -> None:
-        self._traced = traced
-        self._told: dict[str, Any] = json.loads(traced.json())
+        self._traced: _kutzbach.Traced | None = traced
+        self._text = traced.json()
+        self._told: dict[str, Any] = json.loads(self._text)
         self._shape = traced.shape()
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The compiled part stays where it was made; what it has besides these is in the text.
+        arrays = {name: getattr(self, name) for name in ARRAYS}
+        return {**self.__dict__, **arrays, "_traced": None}
 
     @property
     def moves(self) -> bool:
@@ -101,7 +110,7 @@ class Trace:
         try:
             column = self.variables.index(variable)
         except ValueError:
-            raise KeyError(variable) from None
+            raise missing("joint variable", variable, self.variables) from None
         return self.values[:, column]
 
     def pose(self, link: str) -> Array:
@@ -109,12 +118,12 @@ class Trace:
         try:
             index = self.links.index(link)
         except ValueError:
-            raise KeyError(link) from None
+            raise missing("link", link, self.links) from None
         return self.poses[:, index]
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, equal to the JSON of ``kutzbach trace``."""
-        told: dict[str, Any] = json.loads(self._traced.json())
+        told: dict[str, Any] = json.loads(self._text)
         if not self.moves:
             return told
         rows = zip(
@@ -149,7 +158,7 @@ class Trace:
     def _array(self, name: str) -> Array:
         import numpy
 
-        array = self._traced.array(name)
+        array = None if self._traced is None else self._traced.array(name)
         return numpy.frombuffer(array or b"", dtype="<f8").astype(numpy.float64)
 
 
@@ -173,11 +182,11 @@ def trace(
     question = asked(
         branch=branch,
         drive=drive,
-        range=pair(range),
-        hold=list(hold),
+        range=pair("range", range),
+        hold=names(hold),
         samples=samples,
         tolerance=tolerance,
         configuration=configuration,
         closure_tolerance=closure_tolerance,
     )
-    return Trace(mechanism._reading.trace(question))
+    return Trace(compiled(mechanism).trace(question))

@@ -61,6 +61,9 @@ class Frame:
     ) -> None:
         if rpy is not None and quaternion is not None:
             raise ValueError("a frame is turned by `rpy` or by `quaternion`, not by both")
+        for own in (at, rpy, quaternion):
+            if isinstance(own, str):
+                raise TypeError(f"needed several numbers, such as (1, 0, 0), found {own!r}")
         self.at = tuple(at)
         self.rpy = None if rpy is None else tuple(rpy)
         self.quaternion = None if quaternion is None else tuple(quaternion)
@@ -228,5 +231,5 @@ class Builder:
             ends_of_range = zip(("lower", "upper"), limit, strict=True)
             sides = [f'{side}="{number(value)}"' for side, value in ends_of_range if value is not None]
             inner += f"<limit {' '.join(sides)}/>" if sides else ""
-        self._elements.append(f'<{element} name={attribute(name)} type="{kind}">{inner}</{element}>')
+        self._elements.append(f'<{element} name={attribute(name)} type={attribute(kind)}>{inner}</{element}>')
         return self

@@ -7,21 +7,21 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, overload
 
 from . import _kutzbach
 from ._answers import Depth
-from ._ask import Value, asked, value_text
+from ._ask import Value, asked, missing, table, value_text
 from ._errors import Interrupted
-from ._mechanism import Mechanism
+from ._mechanism import Mechanism, compiled
 
 if TYPE_CHECKING:
     import numpy
     import pyarrow
     from numpy.typing import NDArray
 
-Values = str | Iterable[Value]
-"""``"0..2:401"`` for 401 values from 0 to 2, ``"0.1,pi/4"``, or any values."""
+Values = Value | Iterable[Value]
+"""``"0..2:401"`` for 401 values from 0 to 2, ``"0.1,pi/4"``, or any values; a number is one value."""
 
 Progress = Callable[[int, int], None]
 """Is told how many rows are done, and how many there are."""
@@ -29,6 +29,7 @@ Progress = Callable[[int, int], None]
 _FIRST = 64
 _SECONDS = 0.5
 _MOST = 1 << 16
+_SHOWN = 40
 
 
 def over_text(name: str, values: Values) -> str:
@@ -39,7 +40,15 @@ def over_text(name: str, values: Values) -> str:
     """
     if isinstance(values, str):
         return f"{name}={values}"
-    return f"{name}={','.join(value_text(value) for value in values)}"
+    try:
+        several: Any = values
+        each = several if isinstance(several, Iterable) and getattr(several, "shape", None) != () else [several]
+        texts = [value_text(value) for value in each]
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"{name}: {error}") from None
+    if not texts:
+        raise ValueError(f"{name}: there are no values")
+    return f"{name}={','.join(texts)}"
 
 
 class Sweep:
@@ -63,6 +72,8 @@ class Sweep:
 
     def column(self, name: str) -> list[Any]:
         """One column as a list; ``KeyError`` where there is none."""
+        if self.rows and name not in self.rows[0]:
+            raise missing("column", name, self.columns)
         return [row[name] for row in self.rows]
 
     def numbers(self, name: str) -> NDArray[numpy.float64]:
@@ -109,8 +120,18 @@ class Sweep:
     def __iter__(self) -> Iterator[dict[str, Any]]:
         return iter(self.rows)
 
+    @overload
+    def __getitem__(self, place: int) -> dict[str, Any]: ...
+    @overload
+    def __getitem__(self, place: slice) -> list[dict[str, Any]]: ...
+    def __getitem__(self, place: int | slice) -> dict[str, Any] | list[dict[str, Any]]:
+        """A row by its place among these, or several."""
+        return self.rows[place]
+
     def __repr__(self) -> str:
-        return f"<Sweep over {', '.join(self.head['over'])}: {len(self)} rows>"
+        over = ", ".join(own if len(own) <= _SHOWN else f"{own[:_SHOWN]}…" for own in self.head["over"])
+        plural = "" if len(self) == 1 else "s"
+        return f"<Sweep over {over}: {len(self)} row{plural}>"
 
 
 def _row(told: Mapping[str, Any]) -> dict[str, Any]:
@@ -209,14 +230,14 @@ def planned(
 ) -> _kutzbach.Sweep:
     """What :func:`sweep` will do: how many rows there are, and what stands before them."""
     question = asked(
-        over=[over_text(name, values) for name, values in over.items()],
+        over=[over_text(name, values) for name, values in table("over", over).items()],
         sample=sample,
-        shard=None if shard is None else f"{shard[0]}/{shard[1]}",
+        shard=shard if shard is None or isinstance(shard, str) else "/".join(str(number) for number in shard),
         depth=depth,
         configuration=configuration,
         closure_tolerance=closure_tolerance,
     )
-    return mechanism._reading.sweep(question)
+    return compiled(mechanism).sweep(question)
 
 
 def sweep(

@@ -211,6 +211,7 @@ pub(super) fn descend(
     let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
     let mut milestone = sum(&here.residual);
     let mut polishing = false;
+    let columns = movable_columns(&here, held);
     // A pose that closes to the last digit is left exactly as it was drawn. One that had to be moved is polished as long as
     // that helps, so that it closes well within the bound wherever else it is read.
     let mut halved = true;
@@ -231,7 +232,6 @@ pub(super) fn descend(
             polishing = true;
             caution = caution.min(1.0);
         }
-        let columns = movable_columns(&here, held);
         let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else {
             break;
         };

@@ -58,10 +58,10 @@ pub fn place(
     let (centre, length) = characteristic_length(
         placed.iter().flatten(),
         reach,
-        part.joints
-            .iter()
-            .map(|&j| geometry.arms[j])
-            .fold(0.0, f64::max),
+        || {
+            let arms = part.joints.iter().map(|&j| geometry.arms[j]);
+            arms.fold(0.0, f64::max)
+        },
         &uncertainty,
     );
     let screws = placed

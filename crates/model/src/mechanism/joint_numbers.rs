@@ -71,8 +71,8 @@ impl Joint {
 }
 
 impl Mechanism {
-    /// The mechanism with other numbers in its joints: (joint, place in [`Joint::numbers`], value). What the digits of the others
-    /// state is read anew. Places that a joint does not have are passed over.
+    /// The mechanism with other numbers in its joints: (joint, place in [`Joint::numbers`], value). What digits state is read anew
+    /// where some come, go or change. Places that a joint does not have are passed over.
     #[must_use]
     pub fn with_joint_numbers(
         mut self,
@@ -82,21 +82,25 @@ impl Mechanism {
         for (joint, place, value) in changes {
             let number = self.joints.get_mut(joint).and_then(|j| j.number_mut(place));
             if let Some(number) = number {
-                digits_change |= has_digits(number) || has_digits(&value);
+                digits_change |= !has_same_digits(number, &value);
                 *number = value;
             }
         }
         match digits_change {
             true => self.read_digits(),
-            // Computed numbers have no digits that could say anything of the others.
+            // What is written as it was says the same of the others, and computed numbers have no digits to say anything.
             false => self,
         }
     }
 }
 
-/// Whether a number has digits of its own, or of literals that it was worked out from.
-fn has_digits(number: &Number) -> bool {
-    number.literal_text().is_some() || !number.inputs().is_empty()
+/// Whether two numbers have no digits, or the same: of their own, and not of literals that they were worked out from, which are not compared.
+fn has_same_digits(one: &Number, other: &Number) -> bool {
+    let is_own = one.inputs().is_empty() && other.inputs().is_empty();
+    let is_literal = one.literal_text().is_some();
+    // Equal texts may have been read as different numbers.
+    let is_read_alike = one.stated() == other.stated() && one.value() == other.value();
+    is_own && one.literal_text() == other.literal_text() && (!is_literal || is_read_alike)
 }
 
 #[cfg(test)]
@@ -145,8 +149,15 @@ mod tests {
         assert_eq!(decimals(&stated), Some(4));
         let beside = stated.with_joint_numbers([(0, 1, third())]);
         assert_eq!(decimals(&beside), Some(4));
+        let again = beside.with_joint_numbers([(0, 0, Number::decimal("0.1234").unwrap())]);
+        assert_eq!(decimals(&again), Some(4), "written as it was");
+        let longer = again.with_joint_numbers([(0, 0, Number::decimal("0.12345").unwrap())]);
+        assert_eq!(decimals(&longer), Some(5));
+        let read = Number::decimal("0.12345").unwrap().read_as(&third());
+        let exact = longer.clone().with_joint_numbers([(0, 0, read)]);
+        assert_eq!(decimals(&exact), None, "of the same text");
         assert_eq!(
-            decimals(&beside.with_joint_numbers([(0, 0, third())])),
+            decimals(&longer.with_joint_numbers([(0, 0, third())])),
             None
         );
     }

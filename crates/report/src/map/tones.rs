@@ -144,7 +144,8 @@ impl Colouring {
     pub fn note(&self) -> Option<&'static str> {
         (self.column == MARGIN).then_some(
             "The margin is how many times its tolerance the rank of the weakest part is away from being another one. It falls towards \
-             sets that lie between the values of the sweep.",
+             sets between the values of the sweep where the rank is another one. Where there are redundant constraints throughout, it is what \
+             rounding leaves of these, some hundreds.",
         )
     }
 
@@ -171,7 +172,10 @@ impl Colouring {
             (Tone::Word(index), By::Words(words)) => words.get(index).cloned().unwrap_or_default(),
             (Tone::Step(index), By::Steps(bounds)) => {
                 let bound = |at: usize| bounds.get(at).copied().map(figure).unwrap_or_default();
-                format!("{} … {}", bound(index), bound(index + 1))
+                match bounds.get(index + 1) {
+                    Some(most) if most.is_infinite() => format!("{} and more", bound(index)),
+                    _ => format!("{} … {}", bound(index), bound(index + 1)),
+                }
             }
             (Tone::Answer(answer), _) => answer.label(),
             (Tone::Differs, _) => "rows differ".to_owned(),
@@ -213,16 +217,13 @@ pub(super) fn legend(colouring: &Colouring, tones: &[Tone], between: &[Tone]) ->
 /// Bounds of the steps of a column's scale.
 fn bounds(column: &str, cells: &[Cell]) -> Vec<f64> {
     let shown = cells.iter().filter_map(|cell| cell.least);
-    let (least, most) = shown
-        .filter(|number| is_shown(column, *number))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
-            (least.min(x), most.max(x))
-        });
-    if !(least <= most) {
+    let mut shown: Vec<f64> = shown.filter(|number| is_shown(column, *number)).collect();
+    shown.sort_by(f64::total_cmp);
+    let (Some(&least), Some(&most)) = (shown.first(), shown.last()) else {
         return Vec::new();
-    }
+    };
     if column == MARGIN {
-        return log_bounds(least, most);
+        return margin_bounds(&shown);
     }
     if least == most {
         return vec![least, most];
@@ -230,6 +231,23 @@ fn bounds(column: &str, cells: &[Cell]) -> Vec<f64> {
     (0..=SHADES)
         .map(|k| least + (most - least) * (k as f64 / SHADES as f64))
         .collect()
+}
+
+/// Those of margins, which rise. Of many the greatest fiftieth has no scale and is in the last step: constraints that are redundant to the last
+/// digit have margins of any size, beside which nothing else could be told apart.
+fn margin_bounds(margins: &[f64]) -> Vec<f64> {
+    const LEFT_OUT: usize = 50;
+    let last = margins.len().saturating_sub(1 + margins.len() / LEFT_OUT);
+    let (Some(&least), Some(&scaled), Some(&most)) =
+        (margins.first(), margins.get(last), margins.last())
+    else {
+        return Vec::new();
+    };
+    let mut bounds = log_bounds(least, scaled);
+    if let Some(end) = bounds.last_mut().filter(|end| most > **end) {
+        *end = f64::INFINITY;
+    }
+    bounds
 }
 
 /// Whole decades; several at once where there are many, 1, 2 and 5 of each where there are few.
@@ -273,6 +291,21 @@ mod tests {
         assert!(many.len() <= SHADES + 1);
         let four = log_bounds(2.0, 3e3);
         assert_eq!(four, [1.0, 1e1, 1e2, 1e3, 1e4]);
+    }
+
+    #[test]
+    fn a_few_great_margins_do_not_stretch_the_scale() {
+        let mut margins = vec![3.0];
+        margins.extend((100..198).map(f64::from));
+        margins.push(1e12);
+        let bounds = margin_bounds(&margins);
+        assert_eq!(bounds.first(), Some(&1.0));
+        assert_eq!(bounds.get(bounds.len() - 2), Some(&500.0));
+        assert_eq!(bounds.last(), Some(&f64::INFINITY));
+        assert_eq!(step(&bounds, 1e12), bounds.len() - 2);
+        let few = margin_bounds(&[3.0, 1e12]);
+        assert_eq!(few.last(), Some(&1e12));
+        assert!(margin_bounds(&[]).is_empty());
     }
 
     #[test]
