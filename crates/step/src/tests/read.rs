@@ -379,3 +379,27 @@ fn what_is_not_read_is_said() {
     ];
     assert_eq!(found, expected);
 }
+
+/// As CATIA, NX and Creo write an assembly whose parts are files of their own.
+#[test]
+fn shapes_in_other_files_are_told() {
+    let mut text = Text::new();
+    let names = ["HEAD.stp", "tail.STEP", "drawing.pdf"];
+    let mut first = 0;
+    for name in names.iter().rev() {
+        let kind = text.add("DOCUMENT_TYPE('')");
+        first = text.add(&format!("DOCUMENT_FILE('{name}','','',#{kind},'','')"));
+    }
+    text.product("whole", &[]);
+    let error = read(text.finished().as_bytes()).unwrap_err();
+    // Those of shapes, in the order of the file.
+    let told =
+        "found shapes that stand in 2 other files, `tail.STEP`, `HEAD.stp`, which are not read";
+    assert!(error.to_string().contains(told), "{error}");
+    assert_eq!(error.entity, Some(first - 2));
+    let pin = text.pin(1.0, (0.0, 1.0));
+    text.product("pin", &pin);
+    let notes = assembly(&text).notes;
+    let of_files = notes.iter().filter(|note| note.entity == first - 2);
+    assert_eq!(of_files.count(), 1, "{notes:?}");
+}
