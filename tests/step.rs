@@ -201,6 +201,35 @@ fn fasteners_are_tight_by_name_and_head_and_pins_are_not() {
     }
 }
 
+/// A bolt through two plates with a nut at its end: the nut neither turns on the bolt nor counts for a freedom of its own.
+#[test]
+fn nuts_are_tight_on_bolts_that_are() {
+    for (bolt, nut, tight) in [
+        ("M6 bolt", "M6 nut", true),
+        ("M6 bolt", "washer", true),
+        // Neither a collar on a bolt nor a nut on what moves.
+        ("M6 bolt", "collar", false),
+        ("pin", "M6 nut", false),
+        ("shoulder bolt", "M6 nut", false),
+    ] {
+        let text = step_text::two_plates(bolt, nut);
+        let reading = read_plain(&text);
+        let kind = if tight { "fixed" } else { "cylindrical" };
+        let joint = format!("{bolt}-{nut} {kind}");
+        assert!(joints(&reading).contains(&joint), "{:?}", joints(&reading));
+        let by_seat = "by name and seat";
+        let told = reading.warnings.iter();
+        let told = told.filter(|w| w.message.contains(by_seat)).count();
+        assert_eq!(told, usize::from(tight), "{bolt}, {nut}");
+        if tight {
+            // The plate turns about its one bolt, with it and the nut.
+            assert_eq!(finite(&reading), Some(1));
+            let turned = read_corrected(&text, pair(nut, bolt, "cylindrical", None));
+            assert!(joints(&turned).contains(&format!("{bolt}-{nut} cylindrical")));
+        }
+    }
+}
+
 #[test]
 fn what_touches_nothing_floats_and_is_told() {
     let reading = read_plain(&step_text::plate_and("pin", true));

@@ -274,3 +274,20 @@ pub fn plate_and(name: &str, loose: bool) -> String {
     }
     machine.text.finished()
 }
+
+/// A plate on a base, a headed part of one name through both, and a block on its end, of another, that sits against the base.
+pub fn two_plates(bolt: &str, nut: &str) -> String {
+    let mut machine = Machine::new();
+    let hole = [(0.0, 0.0, 3.0)];
+    let (low, high) = ([-20.0, -20.0, 0.0], [20.0, 20.0, 6.0]);
+    let base = machine.block("base", low, high, &hole);
+    let plate = machine.block("plate", low, [20.0, 10.0, 6.0], &hole);
+    let headed = machine.text.headed_pin(3.0, 18.0, (6.0, 2.0));
+    let headed = machine.text.product(bolt, &headed);
+    let block = machine.block(nut, [-5.0, -5.0, 0.0], [5.0, 5.0, 5.0], &hole);
+    machine.place(base, [0.0, 0.0, -6.0], X);
+    machine.place(plate, HERE, X);
+    machine.place(headed, [0.0, 0.0, 6.0], X);
+    machine.place(block, [0.0, 0.0, -11.0], X);
+    machine.text.finished()
+}

@@ -23,6 +23,10 @@ const DEEPEST: usize = 256;
 /// The most occurrences that are visited, those of assemblies among them.
 const MOST_OCCURRENCES: usize = 200_000;
 
+/// Of files that an assembly refers to so many are named, and so many letters of each.
+const MOST_NAMED: usize = 4;
+const LONGEST_NAME: usize = 60;
+
 /// Three components that are off by as much each are off by this many times as much together.
 const WORST: f64 = 1.732_050_807_568_877_2;
 
@@ -69,13 +73,21 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
     if builder.assembly.parts.is_empty() {
         builder.without_products(file)?;
     }
+    let elsewhere = elsewhere(file);
     if builder.assembly.parts.is_empty() {
-        let problem = Problem::Geometry {
-            needed: "solids or shells with faces",
-            found: "none: export the assembly with its shape (boundary representation)".to_owned(),
+        let found = match &elsewhere {
+            Some(note) => format!("{}: export the assembly as one file", note.text),
+            None => "none: export the assembly with its shape (boundary representation)".to_owned(),
         };
-        return Err(StepError::at(1, None, problem));
+        let needed = "solids or shells with faces";
+        let (line, entity) = elsewhere.map_or((1, None), |note| (note.line, Some(note.entity)));
+        return Err(StepError::at(
+            line,
+            entity,
+            Problem::Geometry { needed, found },
+        ));
     }
+    builder.assembly.notes.extend(elsewhere);
     builder.assembly.accuracy += levered(&builder.assembly);
     builder.assembly.printed = builder.digits * builder.assembly.length_unit;
     let said = mechanisms(file, &builder.occurred, &builder.shown)?;
@@ -83,6 +95,48 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
     builder.assembly.base = said.base;
     builder.assembly.notes.extend(said.notes);
     Ok(builder.assembly)
+}
+
+/// The files in which a file says that shapes stand, in the order in which it names them; `None` where it names none.
+fn elsewhere(file: &Exchange<'_>) -> Option<Note> {
+    let mut names: Vec<String> = Vec::new();
+    let mut first = None;
+    for record in file.of_type("DOCUMENT_FILE") {
+        let name = record.text_at(0);
+        let lower = name.to_lowercase();
+        let is_step = [".stp", ".step", ".p21"]
+            .iter()
+            .any(|end| lower.ends_with(end));
+        let kind = record.entity_at(3).ok();
+        let kind = kind.and_then(|kind| Some(kind.leaf("DOCUMENT_TYPE")?.text_at(0)));
+        let is_shape = is_step || kind.is_some_and(|kind| kind == "geometry");
+        if is_shape && !names.contains(&name) {
+            names.push(name);
+            first.get_or_insert((record.instance().line(), record.number()));
+        }
+    }
+    let (line, entity) = first?;
+    let count = names.len();
+    let shown: Vec<String> = names
+        .iter()
+        .take(MOST_NAMED)
+        .map(|name| format!("`{}`", name.chars().take(LONGEST_NAME).collect::<String>()))
+        .collect();
+    let more = match count.saturating_sub(shown.len()) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let text = format!(
+        "shapes that stand in {count} other {}, {}{more}, which are not read",
+        if count == 1 { "file" } else { "files" },
+        shown.join(", ")
+    );
+    Some(Note {
+        line,
+        entity,
+        kind: NoteKind::MayTouch,
+        text,
+    })
 }
 
 /// How far (m) the directions of places may move the points of parts: twice, by a place and by the frame of the part that it refers to.

@@ -97,7 +97,9 @@ impl Face {
     }
 }
 
-/// From where to where the outline goes along the axis of a surface, and the angle about it that it covers.
+/// From where to where a face goes along the axis of its surface, and the angle about it that it covers.
+///
+/// A cone that is bounded at one end only goes to its apex.
 pub(crate) fn extents(surface: &Surface, outline: &[Vec<Vector3<f64>>]) -> ((f64, f64), f64) {
     let Some((point, direction)) = surface.axis() else {
         return ((0.0, 0.0), 0.0);
@@ -106,39 +108,63 @@ pub(crate) fn extents(surface: &Surface, outline: &[Vec<Vector3<f64>>]) -> ((f64
         .iter()
         .flatten()
         .map(|p| (p - point).dot(&direction));
-    let extent = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
         (low.min(h), high.max(h))
     });
-    if !(extent.0 <= extent.1) {
+    if !(low <= high) {
         return ((0.0, 0.0), 0.0);
     }
-    (extent, covered(point, direction, outline))
+    let steps: Vec<Vec<Step>> = outline
+        .iter()
+        .map(|polygon| steps(point, direction, polygon))
+        .collect();
+    let rings = steps.iter().filter(|steps| goes_around(steps)).count();
+    let low = match surface {
+        Surface::Cone { .. } if rings == 1 => low.min(0.0),
+        _ => low,
+    };
+    ((low, high), covered(&steps))
+}
+
+/// A step of a polygon about an axis (rad).
+struct Step {
+    from: f64,
+    to: f64,
+    /// From −π to π.
+    turn: f64,
+}
+
+/// The steps of a closed polygon about an axis. On the axis, as at the apex of a cone, there is no angle: steps from and to it are left out.
+fn steps(point: Vector3<f64>, direction: Vector3<f64>, polygon: &[Vector3<f64>]) -> Vec<Step> {
+    let helper = Vector3::ith((direction.iamax() + 1) % 3, 1.0);
+    let x = (helper - direction * direction.dot(&helper)).normalize();
+    let y = direction.cross(&x);
+    let flat = |p: &Vector3<f64>| ((p - point).dot(&x), (p - point).dot(&y));
+    let following = polygon.iter().cycle().skip(1);
+    let pairs = polygon.iter().zip(following);
+    pairs
+        .map(|(from, to)| (flat(from), flat(to)))
+        .filter(|(a, b)| *a != (0.0, 0.0) && *b != (0.0, 0.0))
+        .map(|(a, b)| Step {
+            from: a.1.atan2(a.0),
+            to: b.1.atan2(b.0),
+            turn: (a.0 * b.1 - a.1 * b.0).atan2(a.0 * b.0 + a.1 * b.1),
+        })
+        .collect()
+}
+
+/// Whether a polygon goes once around the axis: its turns are a whole turn together, or none.
+fn goes_around(steps: &[Step]) -> bool {
+    steps.iter().map(|step| step.turn).sum::<f64>().abs() > 1.5 * PI
 }
 
 /// The angle about an axis that polygons cover. A face on a cylinder covers what its bounds cover: a closed curve around the
 /// axis, or the arcs at its ends.
-fn covered(point: Vector3<f64>, direction: Vector3<f64>, outline: &[Vec<Vector3<f64>>]) -> f64 {
-    let helper = Vector3::ith((direction.iamax() + 1) % 3, 1.0);
-    let x = (helper - direction * direction.dot(&helper)).normalize();
-    let y = direction.cross(&x);
+fn covered(polygons: &[Vec<Step>]) -> f64 {
     let mut spans: Vec<(f64, f64)> = Vec::new();
-    for polygon in outline {
-        let following = polygon.iter().cycle().skip(1);
-        for (from, to) in polygon.iter().zip(following) {
-            let (a, b) = (from - point, to - point);
-            let (a, b) = ((a.dot(&x), a.dot(&y)), (b.dot(&x), b.dot(&y)));
-            // On the axis, as at the apex of a cone, there is no angle.
-            if a == (0.0, 0.0) || b == (0.0, 0.0) {
-                continue;
-            }
-            let turn = (a.0 * b.1 - a.1 * b.0).atan2(a.0 * b.0 + a.1 * b.1);
-            let start = if turn >= 0.0 {
-                a.1.atan2(a.0)
-            } else {
-                b.1.atan2(b.0)
-            };
-            push_span(&mut spans, start.rem_euclid(TAU), turn.abs());
-        }
+    for step in polygons.iter().flatten() {
+        let start = if step.turn >= 0.0 { step.from } else { step.to };
+        push_span(&mut spans, start.rem_euclid(TAU), step.turn.abs());
     }
     let total = united(spans);
     if total > TAU - WHOLE { TAU } else { total }
@@ -200,5 +226,36 @@ mod tests {
         half.extend(back);
         let (_, turned) = extents(&tube, &[half]);
         assert!((turned - PI).abs() < 1e-9, "{turned}");
+    }
+
+    #[test]
+    fn cones_that_end_at_one_circle_go_to_their_apex() {
+        let cone = Surface::Cone {
+            apex: Vector3::zeros(),
+            direction: Vector3::z(),
+            half_angle: PI / 4.0,
+        };
+        let ring = |height: f64, sense: f64| {
+            let mut ring = arc(0.0, sense * TAU, height);
+            ring.pop();
+            ring.iter()
+                .map(|p| Vector3::new(p.x * height, p.y * height, height))
+                .collect::<Vec<_>>()
+        };
+        let whole = extents(&cone, &[ring(3.0, 1.0)]);
+        assert_eq!(whole, ((0.0, 3.0), TAU));
+        // Cut off, or a half from the apex.
+        let cut = extents(&cone, &[ring(3.0, 1.0), ring(2.0, -1.0)]);
+        assert_eq!(cut, ((2.0, 3.0), TAU));
+        let mut half = arc(0.0, PI, 1.0);
+        half.push(Vector3::zeros());
+        let (extent, turned) = extents(&cone, &[half]);
+        assert_eq!(extent, (0.0, 1.0));
+        assert!((turned - PI).abs() < 1e-9, "{turned}");
+        // A window in its side bounds no end.
+        let mut window = arc(0.0, 0.5, 2.0);
+        window.extend(arc(0.5, 0.0, 2.5));
+        let (extent, _) = extents(&cone, &[ring(3.0, 1.0), window]);
+        assert_eq!(extent, (0.0, 3.0));
     }
 }

@@ -33,7 +33,56 @@ struct Basis {
     knots: Vec<f64>,
 }
 
+/// How knots stand that are not written: 0, 1, 2, ... (ISO 10303-42, `default_b_spline_knots`).
+#[derive(Clone, Copy)]
+enum Spacing {
+    /// Each once.
+    Uniform,
+    /// Each once, the first and the last so often that the curve ends at its control points.
+    QuasiUniform,
+    /// As often as pieces want that have control points of their own.
+    Bezier,
+}
+
+/// The leaf of an entity that says its knots, and how these stand where it does not list them.
+fn knots_of<'e>(
+    instance: Instance<'e>,
+    keywords: [&str; 4],
+) -> Option<(Record<'e>, Option<Spacing>)> {
+    let spacings = [
+        None,
+        Some(Spacing::Uniform),
+        Some(Spacing::QuasiUniform),
+        Some(Spacing::Bezier),
+    ];
+    let mut pairs = keywords.into_iter().zip(spacings);
+    pairs.find_map(|(word, spacing)| Some((instance.leaf(word)?, spacing)))
+}
+
 impl Basis {
+    /// With knots that a kind of curve or surface implies; `None` where degree and control points do not fit together.
+    fn implied(spacing: Spacing, degree: f64, poles: usize) -> Option<Self> {
+        if !(1.0..=HIGHEST_DEGREE as f64).contains(&degree) {
+            return None;
+        }
+        let whole = degree as usize;
+        let (spans, inner, end) = match spacing {
+            Spacing::Uniform => (poles + whole, 1, 1),
+            Spacing::QuasiUniform => (poles.checked_sub(whole)?, 1, whole + 1),
+            Spacing::Bezier => (poles.checked_sub(1)? / whole, whole, whole + 1),
+        };
+        let knots: Vec<f64> = (0..=spans).map(|knot| knot as f64).collect();
+        let often = |knot: usize| {
+            if knot == 0 || knot == spans {
+                end
+            } else {
+                inner
+            }
+        };
+        let multiplicities: Vec<f64> = (0..=spans).map(|knot| often(knot) as f64).collect();
+        Self::new(degree, &multiplicities, &knots, poles)
+    }
+
     /// `None` where degree, knots and the number of control points do not fit together.
     fn new(degree: f64, multiplicities: &[f64], knots: &[f64], poles: usize) -> Option<Self> {
         let whole = degree >= 1.0 && degree <= HIGHEST_DEGREE as f64 && degree.fract() == 0.0;
@@ -108,12 +157,19 @@ fn weighted(p: Vector3<f64>, weight: f64) -> Option<Vector4<f64>> {
 }
 
 impl SplineCurve {
-    /// Reads a B_SPLINE_CURVE_WITH_KNOTS, rational or not. `None` where it is another curve, or its numbers do not fit together.
+    /// Reads a B-spline curve, rational or not, with its knots or those that a uniform, quasi-uniform or Bézier curve has. `None` where it is
+    /// another curve, or its numbers do not fit together.
     ///
     /// # Errors
     /// References to nothing, and parameters of the wrong kind.
     pub fn read(instance: Instance<'_>, units: &Units) -> Result<Option<Self>, StepError> {
-        let Some(knots) = instance.leaf("B_SPLINE_CURVE_WITH_KNOTS") else {
+        let keywords = [
+            "B_SPLINE_CURVE_WITH_KNOTS",
+            "UNIFORM_CURVE",
+            "QUASI_UNIFORM_CURVE",
+            "BEZIER_CURVE",
+        ];
+        let Some((knots, spacing)) = knots_of(instance, keywords) else {
             return Ok(None);
         };
         // Of several types at once, degree and points stand with the supertype.
@@ -129,12 +185,15 @@ impl SplineCurve {
         if weights.len() != points.len() {
             return Ok(None);
         }
-        let basis = Basis::new(
-            curve.number_at(degree)?,
-            &knots.numbers_at(first_knots)?,
-            &knots.numbers_at(first_knots + 1)?,
-            points.len(),
-        );
+        let basis = match spacing {
+            Some(spacing) => Basis::implied(spacing, curve.number_at(degree)?, points.len()),
+            None => Basis::new(
+                curve.number_at(degree)?,
+                &knots.numbers_at(first_knots)?,
+                &knots.numbers_at(first_knots + 1)?,
+                points.len(),
+            ),
+        };
         let mut poles = Vec::with_capacity(points.len());
         for (pole, weight) in points.into_iter().zip(weights) {
             poles.extend(weighted(point(pole, units)?, weight));
@@ -157,13 +216,19 @@ impl SplineCurve {
 }
 
 impl SplineSurface {
-    /// Reads a B_SPLINE_SURFACE_WITH_KNOTS, rational or not. `None` where it is another surface, or its numbers do not fit
-    /// together.
+    /// Reads a B-spline surface, rational or not, with its knots or those that a uniform, quasi-uniform or Bézier surface has. `None` where it
+    /// is another surface, or its numbers do not fit together.
     ///
     /// # Errors
     /// References to nothing, and parameters of the wrong kind.
     pub fn read(instance: Instance<'_>, units: &Units) -> Result<Option<Self>, StepError> {
-        let Some(knots) = instance.leaf("B_SPLINE_SURFACE_WITH_KNOTS") else {
+        let keywords = [
+            "B_SPLINE_SURFACE_WITH_KNOTS",
+            "UNIFORM_SURFACE",
+            "QUASI_UNIFORM_SURFACE",
+            "BEZIER_SURFACE",
+        ];
+        let Some((knots, spacing)) = knots_of(instance, keywords) else {
             return Ok(None);
         };
         let (surface, degree, first_knots) = match instance.leaf("B_SPLINE_SURFACE") {
@@ -182,13 +247,14 @@ impl SplineSurface {
         };
         let (rows, columns) = (poles.len(), poles.first().map_or(0, Vec::len));
         let numbers = |place: usize| knots.numbers_at(first_knots + place);
-        let u = Basis::new(surface.number_at(degree)?, &numbers(0)?, &numbers(2)?, rows);
-        let v = Basis::new(
-            surface.number_at(degree + 1)?,
-            &numbers(1)?,
-            &numbers(3)?,
-            columns,
-        );
+        let basis = |along: usize, poles: usize| {
+            let degree = surface.number_at(degree + along)?;
+            Ok::<_, StepError>(match spacing {
+                Some(spacing) => Basis::implied(spacing, degree, poles),
+                None => Basis::new(degree, &numbers(along)?, &numbers(along + 2)?, poles),
+            })
+        };
+        let (u, v) = (basis(0, rows)?, basis(1, columns)?);
         Ok(u.zip(v).map(|(u, v)| Self { u, v, poles }))
     }
 
@@ -269,4 +335,27 @@ fn weigh(
         rows.push(weighed?);
     }
     Some(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Basis, Spacing};
+
+    #[test]
+    fn knots_that_are_not_written_are_those_of_the_standard() {
+        let knots =
+            |spacing, degree, poles| Basis::implied(spacing, degree, poles).map(|b| b.knots);
+        let quasi = [0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0];
+        assert_eq!(knots(Spacing::QuasiUniform, 2.0, 5), Some(quasi.to_vec()));
+        let bezier = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0];
+        assert_eq!(knots(Spacing::Bezier, 2.0, 5), Some(bezier.to_vec()));
+        let uniform = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        assert_eq!(knots(Spacing::Uniform, 2.0, 4), Some(uniform.to_vec()));
+        // Two pieces of degree 2 want five control points; a degree wants more control points than it is, and is a small whole number.
+        assert_eq!(knots(Spacing::Bezier, 2.0, 4), None);
+        assert_eq!(knots(Spacing::QuasiUniform, 3.0, 3), None);
+        for degree in [0.0, -1.0, 1.5, 1e300, f64::NAN] {
+            assert_eq!(knots(Spacing::Uniform, degree, 4), None, "{degree}");
+        }
+    }
 }

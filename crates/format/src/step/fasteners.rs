@@ -6,8 +6,12 @@
 //! plane across the axis of that face, as a head or a washer does. Pins are no fasteners: they are what hinges turn about. Neither are
 //! the screws and nuts of drives, and parts for which a person has named a thread. Everything else that a fastener touches is left
 //! to its faces: a second plate on its shaft turns about it, as a lever on a shoulder screw does.
+//!
+//! A nut or a washer at the other end of a bolt has no head on it. It is tight on the bolt where that is tight, sits on it with a round face, and
+//! with a plane across the axis on a part that the bolt passes: then it holds this part against the head.
 
 use kutzbach_step::{Contact, ContactKind};
+use nalgebra::Vector3;
 
 /// Words of fasteners.
 const WORDS: [&str; 9] = [
@@ -118,10 +122,31 @@ pub(super) fn words_of(name: &str) -> Vec<String> {
 
 /// Whether the contacts of a pair are a shaft in a hole and a head across it.
 pub(super) fn has_shaft_and_head(contacts: &[Contact]) -> bool {
-    let of = |kind: ContactKind| contacts.iter().filter(move |c| c.kind == kind);
-    of(ContactKind::Cylindrical).any(|shaft| {
-        of(ContactKind::Planar).any(|head| head.axis.cross(&shaft.axis).norm() <= SQUARE)
-    })
+    shafts(contacts).any(|shaft| has_plane_across(contacts, &shaft.axis))
+}
+
+/// The contacts that are shafts in holes.
+pub(super) fn shafts(contacts: &[Contact]) -> impl Iterator<Item = &Contact> {
+    contacts
+        .iter()
+        .filter(|contact| contact.kind == ContactKind::Cylindrical)
+}
+
+/// Whether one of the contacts is a plane across an axis (unit direction).
+pub(super) fn has_plane_across(contacts: &[Contact], axis: &Vector3<f64>) -> bool {
+    let mut planes = contacts
+        .iter()
+        .filter(|contact| contact.kind == ContactKind::Planar);
+    planes.any(|plane| along(&plane.axis, axis))
+}
+
+/// Whether one of the contacts is a shaft along an axis (unit direction).
+pub(super) fn has_shaft_along(contacts: &[Contact], axis: &Vector3<f64>) -> bool {
+    shafts(contacts).any(|shaft| along(&shaft.axis, axis))
+}
+
+fn along(one: &Vector3<f64>, other: &Vector3<f64>) -> bool {
+    one.cross(other).norm() <= SQUARE
 }
 
 #[cfg(test)]

@@ -2,19 +2,21 @@
 
 use super::corrections::{PairRule, Resolved, Wrong};
 use super::declared::{Declared, Said};
-use super::fasteners::{has_shaft_and_head, is_fastener};
+use super::fasteners::{
+    has_plane_across, has_shaft_along, has_shaft_and_head, is_fastener, shafts,
+};
 use super::geometry::{Geometry, Taken, for_kind, needed_by, of_subgroup};
 use crate::words::quoted;
 use kutzbach_model::mechanism::JointKind;
 use kutzbach_step::{Assembly, Contact, Joint, JointError, PairOfParts, joint_of};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Why a pair is taken as what it is taken as.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// Its contacts leave the displacements of this joint.
     Contacts,
-    /// One of its parts is a fastener, which is tight.
+    /// One of its parts is a fastener, which is tight on the other.
     Fastener,
     /// A person says so.
     Correction,
@@ -58,13 +60,14 @@ pub(super) fn judged(
         contacts.entry(*pair).or_default();
     }
     let threaded = threaded(corrections);
+    let fastens = |place: &usize| {
+        let part = assembly.parts.get(*place);
+        part.is_some_and(|part| is_fastener(&part.name)) && !threaded.contains(place)
+    };
     let mut pairs = Vec::with_capacity(contacts.len());
     for (parts, contacts) in contacts {
         let found = joint_of(&contacts, accuracy);
-        let fastener = [parts.0, parts.1].into_iter().find(|place| {
-            let part = assembly.parts.get(*place);
-            part.is_some_and(|part| is_fastener(&part.name)) && !threaded.contains(place)
-        });
+        let fastener = [parts.0, parts.1].into_iter().find(fastens);
         let fastener = fastener.filter(|_| has_shaft_and_head(&contacts));
         let mut pair = Judged {
             parts,
@@ -81,7 +84,59 @@ pub(super) fn judged(
         }
         pairs.push(pair);
     }
+    for (place, nut) in nuts(&pairs, fastens) {
+        if let Some(pair) = pairs.get_mut(place) {
+            pair.by_itself(Some(nut));
+        }
+    }
     Ok(pairs)
+}
+
+/// Nuts and washers that are tight on a tight bolt: the places of their pairs with it, and their own among the parts. `fastens` says whether the
+/// part at a place is a fastener.
+fn nuts(pairs: &[Judged], fastens: impl Fn(&usize) -> bool) -> Vec<(usize, usize)> {
+    let mut tight: BTreeSet<usize> = BTreeSet::new();
+    let mut beside: BTreeMap<usize, Vec<(usize, &[Contact])>> = BTreeMap::new();
+    for pair in pairs {
+        let (a, b) = pair.parts;
+        for (own, other) in [(a, b), (b, a)] {
+            if !fastens(&own) {
+                continue;
+            }
+            if pair.reason == Reason::Fastener {
+                tight.insert(own);
+            }
+            let others = beside.entry(own).or_default();
+            others.push((other, pair.contacts.as_slice()));
+        }
+    }
+    let of = |place: usize| beside.get(&place).into_iter().flatten();
+    // Held between the two is what both touch.
+    let holds = |nut: usize, bolt: usize, shaft: &Contact| {
+        let mut seats = of(nut)
+            .filter(|(other, contacts)| *other != bolt && has_plane_across(contacts, &shaft.axis));
+        let passes = |held: usize| {
+            let mut others = of(bolt);
+            others.any(|(other, contacts)| *other == held && has_shaft_along(contacts, &shaft.axis))
+        };
+        seats.any(|(held, _)| passes(*held))
+    };
+    let mut found = Vec::new();
+    for (place, pair) in pairs.iter().enumerate() {
+        let (a, b) = pair.parts;
+        if pair.reason != Reason::Contacts || !fastens(&a) || !fastens(&b) {
+            continue;
+        }
+        let (bolt, nut) = match (tight.contains(&a), tight.contains(&b)) {
+            (true, false) => (a, b),
+            (false, true) => (b, a),
+            _ => continue,
+        };
+        if shafts(&pair.contacts).any(|shaft| holds(nut, bolt, shaft)) {
+            found.push((place, nut));
+        }
+    }
+    found
 }
 
 /// The parts of which a person has named a thread: they are drives.

@@ -1,5 +1,6 @@
 //! What is told of an assembly before anything else.
 
+use super::fasteners::has_shaft_and_head;
 use super::ground::Why;
 use super::pairs::{Judged, Reason};
 use super::standing::{COARSEST, FINEST};
@@ -70,6 +71,7 @@ impl Told {
     pub(super) fn pairs(&mut self, assembly: &Assembly, pairs: &[Judged]) {
         // Fasteners by what they are and what they are fixed to.
         let mut tight: BTreeMap<(&str, usize), Vec<&str>> = BTreeMap::new();
+        let mut nuts: Vec<&str> = Vec::new();
         let mut otherwise: Vec<String> = Vec::new();
         for pair in pairs {
             let (a, b) = pair.parts;
@@ -87,6 +89,10 @@ impl Told {
                 }
                 Reason::Fastener => {
                     let own = pair.fastener.unwrap_or(b);
+                    if !has_shaft_and_head(&pair.contacts) {
+                        nuts.push(name(assembly, own));
+                        continue;
+                    }
                     let other = if own == a { b } else { a };
                     let product = assembly.parts.get(own).map_or("", |p| p.product.as_str());
                     let names = tight.entry((product, other)).or_default();
@@ -125,6 +131,13 @@ impl Told {
             let message = format!(
                 "touch and are not joined, since kinematic pairs of the file say the joints of both: {}{more}. {CORRECT}",
                 otherwise.join("; ")
+            );
+            self.add(1, WarningKind::Guessed, message);
+        }
+        if !nuts.is_empty() {
+            let message = format!(
+                "taken as tight, by name and seat: {}, fixed to the bolt that passes each, across what both hold. {CORRECT}",
+                listed(&nuts)
             );
             self.add(1, WarningKind::Guessed, message);
         }

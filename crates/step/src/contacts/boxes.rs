@@ -31,9 +31,19 @@ impl Bounds {
         match &face.surface {
             Surface::Plane { .. } => outline(),
             Surface::Cylinder { radius, .. } => Some(outline()?.grown(radius * SAGITTA)),
-            Surface::Cone { half_angle, .. } => {
+            Surface::Cone {
+                apex,
+                direction,
+                half_angle,
+            } => {
                 let radius = face.extent.1.abs() * half_angle.tan();
-                Some(outline()?.grown(radius * SAGITTA))
+                let bounds = outline()?.grown(radius * SAGITTA);
+                // The apex, where it belongs to the face, is no corner of its outline.
+                let tip = apex + direction * face.extent.0;
+                Some(Self {
+                    low: bounds.low.inf(&tip),
+                    high: bounds.high.sup(&tip),
+                })
             }
             Surface::Sphere { centre, radius } => {
                 let point = Self {

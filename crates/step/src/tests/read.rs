@@ -237,8 +237,8 @@ fn angles_have_their_units_and_other_surfaces_their_names() {
     assert_eq!(socket.material, Side::Outside);
 }
 
-/// A quarter of a cylinder of radius 5 about z, 8 high, as a rational B-spline of degree 2 by 1.
-fn quarter(text: &mut Text) -> u64 {
+/// A quarter of a cylinder of radius 5 about z, 8 high, as a rational B-spline of degree 2 by 1, with knots as these.
+fn quarter(text: &mut Text, knots: &str) -> u64 {
     let corners = [[5.0, 0.0], [5.0, 5.0], [0.0, 5.0]];
     let rows: Vec<String> = corners
         .iter()
@@ -251,16 +251,25 @@ fn quarter(text: &mut Text) -> u64 {
     let w = 0.5_f64.sqrt();
     text.add(&format!(
         "(BOUNDED_SURFACE()B_SPLINE_SURFACE(2,1,({poles}),.UNSPECIFIED.,.F.,.F.,.F.)\
-         B_SPLINE_SURFACE_WITH_KNOTS((3,3),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)\
-         GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(((1.,1.),({w},{w}),(1.,1.)))\
+         {knots}GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(((1.,1.),({w},{w}),(1.,1.)))\
          REPRESENTATION_ITEM('')SURFACE())"
     ))
 }
 
 #[test]
 fn rational_splines_are_what_they_are() {
+    for knots in [
+        "B_SPLINE_SURFACE_WITH_KNOTS((3,3),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)",
+        "BEZIER_SURFACE()",
+        "QUASI_UNIFORM_SURFACE()",
+    ] {
+        a_quarter_of_a_cylinder_is_one(knots);
+    }
+}
+
+fn a_quarter_of_a_cylinder_is_one(knots: &str) {
     let mut text = Text::new();
-    let surface = quarter(&mut text);
+    let surface = quarter(&mut text, knots);
     let bound = text.tube_bound((0.0, 0.0, 5.0), (0.0, 8.0), (0.0, PI / 2.0));
     // Along the arc times up is away from the axis.
     let faces = [
@@ -286,6 +295,38 @@ fn rational_splines_are_what_they_are() {
     assert!(direction.cross(&Vector3::z()).norm() < 1e-7);
     assert!(point.cross(&direction).norm() < 1e-8);
     assert!((pin.turned - PI / 2.0).abs() < 1e-6, "{}", pin.turned);
+}
+
+/// A square of 4 by 4 with its corners as the control points of a surface, and one edge as a curve: as I-DEAS writes what is flat.
+#[test]
+fn flat_surfaces_without_written_knots_are_planes() {
+    let mut text = Text::new();
+    let [a, b, c, d] =
+        [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 4.0]].map(|[x, y]| text.point([x, y, 7.0]));
+    let surface = text.add(&format!(
+        "QUASI_UNIFORM_SURFACE('',1,1,((#{a},#{c}),(#{b},#{d})),.PLANE_SURF.,.F.,.F.,.U.)"
+    ));
+    let ends = [a, b, d, c].map(|point| text.add(&format!("VERTEX_POINT('',#{point})")));
+    let sides = [(a, b, 0, 1), (b, d, 1, 2), (d, c, 2, 3), (c, a, 3, 0)];
+    let edges = sides.map(|(from, to, first, second)| {
+        let curve = text.add(&format!(
+            "QUASI_UNIFORM_CURVE('',1,(#{from},#{to}),.POLYLINE_FORM.,.F.,.U.)"
+        ));
+        let (first, second) = (ends[first], ends[second]);
+        let edge = text.add(&format!("EDGE_CURVE('',#{first},#{second},#{curve},.T.)"));
+        text.add(&format!("ORIENTED_EDGE('',*,*,#{edge},.T.)"))
+    });
+    let ring = text.add(&format!("EDGE_LOOP('',({}))", list(&edges)));
+    let bound = text.add(&format!("FACE_BOUND('',#{ring},.T.)"));
+    let face = text.face(&[bound], surface, true);
+    text.product("part", &[face]);
+    let assembly = assembly(&text);
+    assert!(assembly.notes.is_empty(), "{:?}", assembly.notes);
+    let Surface::Plane { point, normal } = assembly.parts[0].faces[0].surface else {
+        panic!("{:?}", assembly.parts[0].faces);
+    };
+    near(normal, Z);
+    assert!((point.z - 0.007).abs() < 1e-15);
 }
 
 #[test]
@@ -337,4 +378,28 @@ fn what_is_not_read_is_said() {
         (NoteKind::MayJoin, pair),
     ];
     assert_eq!(found, expected);
+}
+
+/// As CATIA, NX and Creo write an assembly whose parts are files of their own.
+#[test]
+fn shapes_in_other_files_are_told() {
+    let mut text = Text::new();
+    let names = ["HEAD.stp", "tail.STEP", "drawing.pdf"];
+    let mut first = 0;
+    for name in names.iter().rev() {
+        let kind = text.add("DOCUMENT_TYPE('')");
+        first = text.add(&format!("DOCUMENT_FILE('{name}','','',#{kind},'','')"));
+    }
+    text.product("whole", &[]);
+    let error = read(text.finished().as_bytes()).unwrap_err();
+    // Those of shapes, in the order of the file.
+    let told =
+        "found shapes that stand in 2 other files, `tail.STEP`, `HEAD.stp`, which are not read";
+    assert!(error.to_string().contains(told), "{error}");
+    assert_eq!(error.entity, Some(first - 2));
+    let pin = text.pin(1.0, (0.0, 1.0));
+    text.product("pin", &pin);
+    let notes = assembly(&text).notes;
+    let of_files = notes.iter().filter(|note| note.entity == first - 2);
+    assert_eq!(of_files.count(), 1, "{notes:?}");
 }
