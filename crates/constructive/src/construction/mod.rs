@@ -15,13 +15,21 @@
 //! between two points; ahead or behind along a line; for a line by two points, on which side its own left lies. The drawing
 //! has a side for every step, and the first solution takes it wherever it leads to one.
 //!
+//! # The drawing
+//! Where intersections lose the sides drawn to rounding, the drawing itself is looked at, and corrected by Newton's method where it is a
+//! little off: a drawing that has all values is a solution, however long the chain.
+//!
 //! # Cost
 //! An element moves with the smaller clusters only: V log V in all, and V in a chain.
 
 mod classes;
+mod correction;
 mod count;
 mod depend;
 mod derived;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod drawing_tests;
 mod exact;
 mod frame;
 mod plan;
@@ -45,6 +53,7 @@ use crate::counted::Counted;
 use crate::pebbles::Circuit;
 use crate::sketch::Sketch;
 use plan::Plan;
+use std::sync::OnceLock;
 use thiserror::Error;
 
 /// Why a sketch is not constructed.
@@ -100,6 +109,8 @@ pub struct Construction<'a> {
     rigid: Vec<bool>,
     /// Whether its two places are one figure, with lines the other way round: on the side drawn only.
     senseless: Vec<bool>,
+    /// Places beside those drawn that have all values; sought once, where intersections lose them.
+    corrected: OnceLock<Option<Vec<Shape>>>,
 }
 
 impl<'a> Construction<'a> {
@@ -129,6 +140,7 @@ impl<'a> Construction<'a> {
             reduction,
             plan,
             drawn,
+            corrected: OnceLock::new(),
         })
     }
 
@@ -249,9 +261,9 @@ impl<'a> Construction<'a> {
         let lost = carried.outcomes.iter().find(|o| !o.is_possible());
         if matches!(lost, Some(Outcome::Apart { .. }))
             && left == self.drawn_left
-            && self.drawing_holds()
+            && let Some(places) = self.corrected()
         {
-            carried = frame::as_it_is(&self.plan, &self.drawn);
+            carried = frame::as_it_is(&self.plan, places);
         }
         if self.sketch.is_known_to_rounding() {
             return carried;
@@ -266,20 +278,21 @@ impl<'a> Construction<'a> {
         carried
     }
 
-    /// Whether the drawing has all values to rounding: then it is a solution, however far a chain of intersections carries the rounding of its
-    /// first ones. A coordinate is rounded by half a unit in its last place, a distance to a line by two such and the line's own roundings:
-    /// sixteen units in the last place of the largest coordinate hold all.
-    fn drawing_holds(&self) -> bool {
-        let extent = self.drawn.iter().map(Shape::extent).fold(1.0, f64::max);
-        let open = 16.0 * f64::EPSILON;
-        self.sketch.constraints().iter().all(|c| {
-            let [u, v] = c.ends.map(|e| &self.drawn[e]);
-            let off = frame::value_between(u, v) - c.value.value();
-            match u.is_line() && v.is_line() {
-                true => off.sin().abs().max(1.0 - off.cos()) <= open,
-                false => off.abs() <= open * extent,
-            }
-        })
+    /// The drawing, corrected where it is a little off, if it has all values then and every element is on the side drawn.
+    fn corrected(&self) -> Option<&[Shape]> {
+        let found = self.corrected.get_or_init(|| {
+            let places = correction::corrected(self.sketch, &self.drawn)?;
+            let outcomes = frame::as_it_is(&self.plan, &places).outcomes;
+            let on_side = |((m, outcome), &left): ((&plan::Move, &Outcome), &bool)| {
+                let [x, y, z] = m.shared.map(|e| &places[e]);
+                let sides = matches!(outcome, Outcome::Two { .. });
+                !sides || (third::drawn_side([x, z], y) >= 0.0) == left
+            };
+            let steps = self.plan.moves.iter().zip(&outcomes);
+            let there = steps.zip(&self.drawn_left).all(on_side);
+            there.then_some(places)
+        });
+        found.as_deref()
     }
 
     fn classes(&self) -> Vec<classes::Class> {
