@@ -2,6 +2,7 @@ use super::dimensions::Dimensions;
 use super::relations::Relations;
 use super::*;
 use crate::analyse;
+use crate::part_samples::bennett_places;
 use kutzbach_closure::samples::{
     CRANK_ROCKER, Place, Written, add_ring, planar, ring, sarrus_places,
 };
@@ -139,4 +140,25 @@ fn noise_frees_no_loop_that_the_digits_of_another_hold_fast() {
     let locked: Vec<Option<bool>> = found.roles.iter().map(|role| role.locked).collect();
     assert_eq!(locked[..4], [Some(false); 4]);
     assert_eq!(locked[4..], [Some(true); 6]);
+}
+
+#[test]
+fn what_was_rounded_in_inches_is_what_was_drawn() {
+    // Thousandths of an inch.
+    const STEP: f64 = 2.54e-5;
+    let mut places = bennett_places();
+    for (_, point, _) in &mut places {
+        *point = point.map(|x| (x / STEP).round() * STEP);
+    }
+    // The directions have as many digits: they were computed.
+    for decimals in [17, 12, 8] {
+        let found = ring(&places, [0.0; 3], Written::Decimals(decimals));
+        let found = analyse(&found, &AnalysisOptions::default()).unwrap();
+        assert_eq!(found.mobility.finite(), Some(1), "{decimals}");
+    }
+    // A tenth of a millimetre is no rounding of an inch.
+    places[1].1[2] += 1e-4 + 0.3 * STEP;
+    let found = ring(&places, [0.0; 3], Written::Decimals(12));
+    let found = analyse(&found, &AnalysisOptions::default()).unwrap();
+    assert_ne!(found.mobility.finite(), Some(1));
 }
