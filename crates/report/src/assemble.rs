@@ -13,7 +13,9 @@ use kutzbach_format::Reading;
 use kutzbach_math::number::Number;
 use kutzbach_mobility::Verdict;
 use kutzbach_mobility::{Analysis, AnalysisOptions, analyse, kutzbach_count};
-use kutzbach_model::mechanism::{Coupling, LiteralPlace, Mechanism, Placement, Precision, Written};
+use kutzbach_model::mechanism::{
+    Coupling, LiteralPlace, Mechanism, OtherUnit, Placement, Precision, Written,
+};
 use petgraph::unionfind::UnionFind;
 use std::time::Instant;
 
@@ -166,6 +168,13 @@ fn written(precision: &Precision) -> Vec<WrittenKind> {
             }
             Written::SinglePrecision => (WrittenStyle::Single, None, None),
             Written::DoublePrecision => (WrittenStyle::Double, None, None),
+            Written::Converted(unit, decimals) => {
+                let style = match unit {
+                    OtherUnit::Degree => WrittenStyle::Degrees,
+                    OtherUnit::Inch => WrittenStyle::Inches,
+                };
+                (style, Some(decimals), None)
+            }
         };
         Some(WrittenKind {
             kind: kind.to_owned(),

@@ -140,18 +140,40 @@ fn within_digits(
         }
         return Ok(stated);
     }
+    by_distance(mechanism, options, configuration, stated, &parts)
+}
+
+/// What the distances of the nearest dimensions of parts decide. Each part is read by its own numbers: those of one may be rounded, those
+/// of another have the noise of the program that printed them.
+fn by_distance(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+    configuration: Option<&Configuration>,
+    stated: Analysis,
+    parts: &[PartMeant],
+) -> Result<Analysis, AnalysisError> {
+    let verdict = stated.mobility.verdict;
+    let open = matches!(verdict, Verdict::Undecided | Verdict::Unassembled);
+    let chosen = verdict == Verdict::Rigid && mechanism.precision().is_exact();
     let within = |part: &PartMeant| part.nearest.is_some() && part.units() <= WITHIN;
-    let refuted = |part: &PartMeant| part.excluded || part.is_open();
-    if parts.iter().all(within) {
+    let near: Vec<&PartMeant> = parts.iter().filter(|part| within(part)).collect();
+    if !near.is_empty() {
+        let noisy = noise::noisy_parts(mechanism, options, configuration, &stated, &near)?;
+        if let Some(found) = noise::meant_beside(mechanism, options, &stated, &near, &noisy)? {
+            return Ok(found);
+        }
+    }
+    if near.len() == parts.len() {
         let as_accepted = parts.iter().all(|part| part.accepted == Some(part.freedom));
         return match (open, chosen || as_accepted) {
-            (false, true) => Ok(with_nearest(stated, &all, chosen)),
-            _ => of_the_one_meant(mechanism, options, stated, &all),
+            (false, true) => Ok(with_nearest(stated, &near, chosen)),
+            _ => Ok(of_the_one_meant(mechanism, options, &stated, &near)?.unwrap_or(stated)),
         };
     }
+    let refuted = |part: &PartMeant| part.excluded || part.is_open();
     let settled = parts.iter().all(|part| within(part) || refuted(part));
     if !chosen && settled && parts.iter().any(refuted) {
-        return refuted_parts(mechanism, options, configuration, stated, &parts);
+        return refuted_parts(mechanism, options, configuration, stated, parts);
     }
     Ok(stated)
 }
@@ -178,18 +200,18 @@ fn with_nearest(mut stated: Analysis, parts: &[&PartMeant], chosen: bool) -> Ana
     stated
 }
 
-/// The analysis of the mechanism meant; the one given where that leaves it open.
+/// The analysis of the mechanism meant, all of whose other numbers are taken literally; `None` where that leaves it open.
 fn of_the_one_meant(
     mechanism: &Mechanism,
     options: &AnalysisOptions,
-    stated: Analysis,
+    stated: &Analysis,
     parts: &[&PartMeant],
-) -> Result<Analysis, AnalysisError> {
+) -> Result<Option<Analysis>, AnalysisError> {
     let meant = meant_of(mechanism, parts);
     let mut analysis = analyse_as_stated(&meant.mechanism, options)?;
     let moves = parts.iter().any(|part| part.freedom > 0);
     let Some(finite) = analysis.mobility.finite().filter(|f| *f > 0 || !moves) else {
-        return Ok(stated);
+        return Ok(None);
     };
     if meant.changes.is_empty() {
         // The numbers as written close all along a motion.
@@ -198,17 +220,17 @@ fn of_the_one_meant(
                 now.reading = Reading::Literal;
             }
         }
-        return Ok(analysis);
+        return Ok(Some(analysis));
     }
     analysis.mobility.nominal = Some(nominal(parts, finite));
-    analysis.mobility.as_written = Some(as_written(&stated));
+    analysis.mobility.as_written = Some(as_written(stated));
     // How far the file's own numbers leave the loops open is what its reader asks.
     for (now, drawn) in analysis.assembly.gaps.iter_mut().zip(&stated.assembly.gaps) {
         (now.position, now.angle) = (drawn.position, drawn.angle);
     }
     analysis.nearest = Some(Box::new(meant.clone()));
     analysis.meant = Some(Box::new(meant));
-    Ok(analysis)
+    Ok(Some(analysis))
 }
 
 /// The analysis where no numbers within the digits let some part move, or close, as the rank within the digits would have it.
@@ -235,7 +257,12 @@ fn refuted_parts(
         let mut analysis = analyse_as_stated(&literal, options)?;
         let all: Vec<&PartMeant> = parts.iter().collect();
         let Some(finite) = analysis.mobility.finite() else {
-            return Ok(opened(mechanism, stated, parts));
+            let excluded = parts.iter().filter(|part| part.excluded);
+            let open = excluded.map(|part| (part.index, stated.findings[part.index].upper()));
+            let open: Vec<(usize, usize)> = open.collect();
+            let why = "no numbers within the digits let it move with as many degrees of freedom as its rank within them; with how \
+                       many fewer it moves is open";
+            return Ok(opened(mechanism, stated, &open, why));
         };
         analysis.mobility.nominal = Some(nominal(&all, finite));
         analysis.nearest = stated.nearest;
@@ -266,17 +293,23 @@ fn left_open(mut stated: Analysis, parts: &[PartMeant]) -> Analysis {
     stated
 }
 
-/// The analysis with the parts open that no numbers within the digits let move as they were taken to.
-fn opened(mechanism: &Mechanism, mut stated: Analysis, parts: &[PartMeant]) -> Analysis {
-    for part in parts.iter().filter(|part| part.excluded) {
-        let finding = &mut stated.findings[part.index];
-        let why = "no numbers within the digits let it move with as many degrees of freedom as its rank within them; with how many \
-                   fewer it moves is open";
-        let finite = Bounds::at_most(finding.upper());
+/// The analysis with some parts open, each with so many freedoms at most.
+fn opened(
+    mechanism: &Mechanism,
+    mut stated: Analysis,
+    open: &[(usize, usize)],
+    why: &str,
+) -> Analysis {
+    for &(index, most) in open {
+        let Some(finding) = stated.findings.get_mut(index) else {
+            continue;
+        };
+        // What bound the part at its pose was read of other numbers.
+        let pose = finding.pose().filter(|_| finding.upper() >= most);
         finding.read_anew(Claim {
-            pose: finding.pose(),
+            pose,
             says: Says::Open(why.to_owned()),
-            ..Claim::of(EngineName::Digits, Scope::Pose, finite, why)
+            ..Claim::of(EngineName::Digits, Scope::Pose, Bounds::at_most(most), why)
         });
     }
     stated.mobility = judge(mechanism, &stated.structure, &stated.findings);

@@ -6,15 +6,18 @@
 
 use super::dimensions::Dimensions;
 use super::nearest::{Nearest, Search};
-use super::of_the_one_meant;
-use super::parts::{MOST_DIMENSIONS, PartMeant, changes, reach};
+use super::parts::{GAP, MOST_DIMENSIONS, PartMeant, changes, is_else_as_written, reach};
 use super::poses::Loops;
 use super::relations::Relations;
+use super::{of_the_one_meant, opened};
 use crate::analysis::Analysis;
 use crate::depth::Depth;
 use crate::options::{AnalysisError, AnalysisOptions};
+use crate::roles::JointRole;
 use crate::vocabulary::Verdict;
-use kutzbach_closure::{Arithmetic, CycleJacobian, Geometry, Metric, Part, linearised};
+use kutzbach_closure::{
+    Arithmetic, CycleJacobian, Geometry, Metric, Part, linearised, rounding_of,
+};
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism};
@@ -63,40 +66,122 @@ pub(super) fn but_for_noise(
     configuration: Option<&Configuration>,
     stated: Analysis,
 ) -> Result<Analysis, AnalysisError> {
-    let by_hand = mechanism.precision().by_hand().is_some();
-    if stated.mobility.verdict == Verdict::Mobile || by_hand || options.depth <= Depth::Rank {
-        return Ok(stated);
-    }
-    let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
-    let mut parts = Vec::new();
-    for (index, part) in stated.structure.parts.iter().enumerate() {
-        let finding = stated.findings.get(index);
-        let open = finding.is_none_or(|finding| finding.open().is_some());
-        if !open && finding.is_some_and(|finding| finding.upper() > 0) {
-            continue;
-        }
-        match of_part(mechanism, &geometry, &stated, (index, part))? {
-            Some(found) => parts.push(found),
-            None if open && !part.cycles.is_empty() => return Ok(stated),
-            None => {}
-        }
-    }
-    let all: Vec<&PartMeant> = parts.iter().collect();
-    let unassembled = stated.mobility.verdict == Verdict::Unassembled;
-    let same = |part: &&PartMeant| part.changes.iter().all(|c| c.to == c.from);
+    let parts = noisy_parts(mechanism, options, configuration, &stated, &[])?;
+    let verdict = stated.mobility.verdict;
+    let decided = matches!(verdict, Verdict::Mobile | Verdict::Rigid);
+    let same = |part: &PartMeant| part.changes.iter().all(|c| c.to == c.from);
     // Numbers that close all along a motion as they stand, to the rounding of doubles, move with what these leave open.
-    let decided = !unassembled && stated.mobility.verdict != Verdict::Undecided;
-    if all.is_empty() || decided && all.iter().all(same) {
+    if parts.is_empty() || decided && parts.iter().all(same) {
         return Ok(stated);
     }
-    let mut analysis = of_the_one_meant(mechanism, options, stated, &all)?;
-    if analysis.meant.is_some()
+    if let Some(found) = meant_beside(mechanism, options, &stated, &[], &parts)? {
+        return Ok(found);
+    }
+    let moving = parts.iter().filter(|part| part.freedom > 0);
+    let open: Vec<(usize, usize)> = moving.map(|part| (part.index, part.freedom)).collect();
+    if !decided || open.is_empty() {
+        return Ok(stated);
+    }
+    let mut stated = opened(mechanism, stated, &open, NOT_FOLLOWED);
+    for (index, _) in open {
+        for &joint in &stated.structure.parts[index].joints {
+            stated.roles[joint] = JointRole::default();
+        }
+    }
+    Ok(stated)
+}
+
+/// Why a part stays open that binds by noise only.
+const NOT_FOLLOWED: &str = "as written it binds by no more than the noise of numbers that a program printed, and what those meant do beside \
+                            the other parts was not decided; `--precision` states how well the numbers are known";
+
+/// The analysis of the mechanism meant by the numbers of some parts but for their noise, beside those that are `near` by their digits;
+/// `None` where that leaves it open, where there are none of the former, or where the numbers of another part, taken literally, are
+/// not what they were read as.
+pub(super) fn meant_beside(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+    stated: &Analysis,
+    near: &[&PartMeant],
+    noisy: &[PartMeant],
+) -> Result<Option<Analysis>, AnalysisError> {
+    let all: Vec<&PartMeant> = near.iter().copied().chain(noisy).collect();
+    let among = |index: usize| all.iter().any(|part| part.index == index);
+    let mut others = stated.findings.iter().zip(&stated.parts).enumerate();
+    let otherwise = others.any(|(index, (finding, rank))| {
+        !among(index) && finding.upper() > 0 && is_else_as_written(rank)
+    });
+    if noisy.is_empty() || otherwise {
+        return Ok(None);
+    }
+    let mut found = of_the_one_meant(mechanism, options, stated, &all)?;
+    if let Some(analysis) = &mut found
+        && analysis.meant.is_some()
         && let Some(nominal) = &mut analysis.mobility.nominal
     {
         nominal.noise = true;
         nominal.within_digits = false;
     }
-    Ok(analysis)
+    Ok(found)
+}
+
+/// The parts whose numbers a program printed, and that bind or stay open by the noise of these only; none where another part stays open,
+/// but for those that are `near` by their digits.
+///
+/// # Errors
+/// [`AnalysisError`] where numbers overflow.
+pub(super) fn noisy_parts(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+    configuration: Option<&Configuration>,
+    stated: &Analysis,
+    near: &[&PartMeant],
+) -> Result<Vec<PartMeant>, AnalysisError> {
+    let by_hand = mechanism.precision().by_hand().is_some();
+    if by_hand || options.depth <= Depth::Rank {
+        return Ok(Vec::new());
+    }
+    let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+    let mut parts = Vec::new();
+    for (index, part) in stated.structure.parts.iter().enumerate() {
+        if near.iter().any(|near| near.index == index) {
+            continue;
+        }
+        let finding = stated.findings.get(index);
+        let open = finding.is_none_or(|finding| finding.open().is_some());
+        if !open && finding.is_some_and(|finding| finding.upper() > 0) {
+            continue;
+        }
+        match of_part(mechanism, &geometry, stated, (index, part))? {
+            Some(found) => parts.push(found),
+            None if open && !closes_as_written(mechanism, &geometry, stated, part)? => {
+                return Ok(Vec::new());
+            }
+            None => {}
+        }
+    }
+    Ok(parts)
+}
+
+/// Whether a part of a mechanism that does not assemble closes with its numbers as they are, and these stand for no others by their
+/// digits: what it does is decided when the others close.
+fn closes_as_written(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    stated: &Analysis,
+    part: &Part,
+) -> Result<bool, MatrixError> {
+    if part.cycles.is_empty() {
+        return Ok(true);
+    }
+    let unassembled = stated.mobility.verdict == Verdict::Unassembled;
+    if !unassembled || !Dimensions::of(mechanism, part).all.is_empty() {
+        return Ok(false);
+    }
+    let here = linearised(geometry, &stated.assembly.states, part)?;
+    let rounding = rounding_of(&here.walks, f64::EPSILON);
+    let closed = |residual: &f64| residual.abs() <= GAP * rounding;
+    Ok(here.residual.iter().all(closed))
 }
 
 /// How far the loops of a part are open (rad, or lengths of how far they reach).

@@ -29,7 +29,7 @@ const TRIES: usize = 3;
 pub(super) const MOST_DIMENSIONS: usize = 600;
 
 /// A gap is none of rounding where it is so many times what that may leave.
-const GAP: f64 = 8.0;
+pub(super) const GAP: f64 = 8.0;
 
 /// What holds fast to first order is clearly beyond the digits where it is so many times what these leave open: the second order of such
 /// changes is less than their first.
@@ -176,7 +176,7 @@ fn leaves_a_gap(rank: &PartRank) -> bool {
 }
 
 /// Whether the numbers of a part as written close less well, or have a higher rank, than those that they may stand for.
-fn is_else_as_written(rank: &PartRank) -> bool {
+pub(super) fn is_else_as_written(rank: &PartRank) -> bool {
     let literally = rank.as_written != rank.instantaneous;
     rank.open_by_digits() > 0.0 && (literally || leaves_a_gap(rank))
 }

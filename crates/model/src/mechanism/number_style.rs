@@ -12,8 +12,9 @@
 //! | significant digits | of `S` by fewer than of `D`, and `S ≥ 3` | `½ 10ᵉ⁻ˢ` |
 //! | either | neither is a thousand times likelier | the larger |
 //! | single precision | every literal is the print of a single-precision number, which is no chance | `2⁻²⁴ (|x| + max |x|)` |
+//! | another unit | every literal is a multiple of `10⁻ᵏ` degrees or inches, k > [`EXACT_DECIMALS`], which is no chance ([`OtherUnit`]) | `½ (10⁻ᵏ unit + 10⁻ᵈ)` |
 //!
-//! and never more than `½ 10⁻ᵈ`. A zero at the end that a program leaves out is there by chance, once in ten numbers. So the style of
+//! and, but for another unit, never more than `½ 10⁻ᵈ`. A zero at the end that a program leaves out is there by chance, once in ten numbers. So the style of
 //! which the literals fall short by fewer zeros in all is the likelier one, ten times for every zero. Where most literals are shorter
 //! than chance explains ([`Group::lost`]), beside a few long ones, two hands printed them, and the shorter ones are as uncertain as
 //! their own digits say: `½ 10⁻ᵈ`. The numbers of loops that close are often written later, by another program than the tree's: where those
@@ -21,6 +22,7 @@
 //! program had exactly. Numbers of up to [`NATURAL`] significant digits are such in whatever company, and count for none of this.
 
 use super::constants::{has_no_more_than_a_double, is_printed_double};
+use super::other_unit::{OtherUnit, Printed};
 use super::precision::LiteralPlace;
 use kutzbach_math::number::{Number, Stated};
 
@@ -109,6 +111,8 @@ pub enum Written {
     SinglePrecision,
     /// All digits of doubles.
     DoublePrecision,
+    /// Rounded to so many decimals of a unit, and converted.
+    Converted(OtherUnit, i32),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +122,8 @@ enum Style {
     Either,
     /// With the largest size of any.
     Single(f64),
+    /// To so many decimals of another unit.
+    Converted(OtherUnit, i32),
 }
 
 impl Default for Group {
@@ -152,7 +158,8 @@ impl Group {
 
     /// Whether it has all the digits of doubles, and not mostly shorter ones of another hand.
     pub fn is_in_full(&self) -> bool {
-        self.significant >= OF_A_DOUBLE && self.mostly_full
+        let converted = matches!(self.style, Style::Converted(..));
+        self.significant >= OF_A_DOUBLE && self.mostly_full && !converted
     }
 
     /// Whether literals that count as exact may all be rounded to the decimals of the longest: no more of them are shorter than zeros
@@ -167,6 +174,7 @@ impl Group {
         Some(match self.style {
             _ if self.is_exact() => Written::Chosen,
             Style::Single(_) => Written::SinglePrecision,
+            Style::Converted(unit, decimals) => Written::Converted(unit, decimals),
             _ if self.doubles || self.significant >= OF_A_DOUBLE => Written::DoublePrecision,
             Style::Decimals => Written::Decimals(decimals),
             Style::Significant => Written::Significant(self.significant),
@@ -230,11 +238,14 @@ impl Group {
             false => 0.0,
         };
         let by_decimals = power_of_ten(-i64::from(most));
+        if let Style::Converted(unit, decimals) = self.style {
+            return 0.5 * (unit.step(decimals) + own.min(by_decimals));
+        }
         let with_lost = match self.style {
             _ if written == 0 => by_decimals,
             Style::Decimals => by_decimals,
             Style::Significant => by_digits,
-            Style::Either | Style::Single(_) => by_decimals.max(by_digits),
+            Style::Either | Style::Single(_) | Style::Converted(..) => by_decimals.max(by_digits),
         };
         // A designer's number among computed ones: short, or of no more decimals than chosen numbers have.
         let bare = bare(number, stated);
@@ -282,7 +293,7 @@ impl Style {
         match self {
             Self::Decimals => of_decimals,
             Self::Significant => of_digits,
-            Self::Either | Self::Single(_) => of_decimals.min(of_digits),
+            Self::Either | Self::Single(_) | Self::Converted(..) => of_decimals.min(of_digits),
         }
     }
 }
@@ -291,9 +302,19 @@ impl Style {
 #[derive(Default)]
 pub(super) struct Literals<'a> {
     all: Vec<(LiteralPlace, &'a Number, Stated)>,
+    /// In which other unit numbers of this kind may have been rounded.
+    unit: Option<OtherUnit>,
 }
 
 impl<'a> Literals<'a> {
+    /// None yet, of a kind that may have been rounded in another unit.
+    pub fn of(unit: Option<OtherUnit>) -> Self {
+        Self {
+            all: Vec::new(),
+            unit,
+        }
+    }
+
     pub fn read(&mut self, place: LiteralPlace, number: &'a Number) {
         if let Some(stated) = number.stated() {
             self.all.push((place, number, stated));
@@ -304,6 +325,7 @@ impl<'a> Literals<'a> {
     pub fn and(&self, others: &Self) -> Self {
         Self {
             all: self.all.iter().chain(&others.all).copied().collect(),
+            unit: self.unit,
         }
     }
 
@@ -355,11 +377,15 @@ impl<'a> Literals<'a> {
             return Group::default();
         }
         let single = self.single();
+        let converted = self.unit.filter(|_| single.is_none());
+        let converted = converted.and_then(|unit| Some((unit, self.rounded_in(unit)?)));
         let longer = self
             .taken_as_written()
             .any(|n| !has_no_more_than_a_double(n));
-        group.doubles =
-            single.is_none() && !longer && self.taken_as_written().any(is_printed_double);
+        group.doubles = single.is_none()
+            && converted.is_none()
+            && !longer
+            && self.taken_as_written().any(is_printed_double);
         let mut first_digit: Option<i64> = None;
         for (place, number, stated) in &self.all {
             let stated = group.stated(number, *stated);
@@ -382,9 +408,10 @@ impl<'a> Literals<'a> {
             .clamp(i64::from(i32::MIN), i64::from(i32::MAX));
         group.decade = i32::try_from(decade).unwrap_or(0);
         group.designed = group.decimals.unwrap_or(0);
-        group.style = match single {
-            Some(size) => Style::Single(size),
-            None => self.style(&group),
+        group.style = match (single, converted) {
+            (Some(size), _) => Style::Single(size),
+            (None, Some((unit, decimals))) => Style::Converted(unit, decimals),
+            (None, None) => self.style(&group),
         };
         let computed: Vec<Stated> = self.computed(&group).collect();
         let in_full = computed.iter().filter(|s| s.significant >= IN_FULL).count();
@@ -401,6 +428,17 @@ impl<'a> Literals<'a> {
             .iter()
             .filter(|(_, n, stated)| n.written() == Some(*stated));
         plain.map(|(_, number, _)| *number)
+    }
+
+    /// To how many decimals of another unit they were rounded, if these are more than somebody chooses.
+    fn rounded_in(&self, unit: OtherUnit) -> Option<i32> {
+        let printed = self.all.iter().map(|(_, number, stated)| {
+            let stated = of_a_double(*stated);
+            (number.value(), power_of_ten(-i64::from(stated.decimals)))
+        });
+        let printed: Vec<Printed> = printed.collect();
+        let decimals = unit.rounded_to(&printed, BY_CHANCE);
+        decimals.filter(|decimals| *decimals > EXACT_DECIMALS)
     }
 
     /// The digits of those that are neither zero nor somebody's choice.

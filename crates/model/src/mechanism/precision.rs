@@ -2,6 +2,7 @@
 
 use super::joint::Joint;
 use super::number_style::{EXACT_DECIMALS, Group, Literals, Written};
+use super::other_unit::OtherUnit;
 use kutzbach_math::number::{Input, Number};
 use std::collections::BTreeSet;
 
@@ -26,7 +27,8 @@ use std::collections::BTreeSet;
 /// ([`Recognised`](super::Recognised)) are exact; those that were read as shorter decimals state what these state. Where every
 /// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing. Printed
 /// doubles state 17 significant digits, however many are printed. Literals that are single-precision numbers, however they are
-/// printed, are uncertain by what single precision is.
+/// printed, are uncertain by what single precision is. Lengths that are all multiples of a small part of an inch, and angles that are of a
+/// degree, were rounded there: each is uncertain by half that part.
 ///
 /// Numbers that a reader worked out from literals ([`Number::derived_from`]) count by these, and are as uncertain as they make them:
 /// `Σ |∂number/∂x| u(x)`. Where all of these are exact, they count by their own texts, which have the rounding of doubles.
@@ -259,7 +261,8 @@ fn sorted_by_kind<'a>(
     by_own_text: bool,
     known: &mut BTreeSet<(usize, Option<&'a str>)>,
 ) -> [Literals<'a>; 3] {
-    let mut literals = [(); 3].map(|()| Literals::default());
+    let units = [Some(OtherUnit::Inch), Some(OtherUnit::Degree), None];
+    let mut literals = units.map(Literals::of);
     for &(place, number) in numbers {
         let inputs = number.inputs();
         if inputs.is_empty() || by_own_text {

@@ -37,7 +37,7 @@ pub struct WrittenKind {
     pub kind: String,
     /// How they were rounded.
     pub style: WrittenStyle,
-    /// To so many decimals, where that is the style.
+    /// To so many decimals, of a metre or radian or of the unit of the style, where that is the style.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decimals: Option<i32>,
     /// To so many significant digits, where that is the style.
@@ -59,6 +59,10 @@ pub enum WrittenStyle {
     Single,
     /// All digits of doubles.
     Double,
+    /// To a number of decimals of a degree, and converted to radians.
+    Degrees,
+    /// To a number of decimals of an inch, and converted to metres.
+    Inches,
 }
 
 /// A literal and where it stands.

@@ -621,6 +621,8 @@ fn written(kinds: &[WrittenKind]) -> String {
             WrittenStyle::Significant => format!("to {significant}"),
             WrittenStyle::Single => "in full single precision".to_owned(),
             WrittenStyle::Double => "in full double precision".to_owned(),
+            WrittenStyle::Degrees => format!("to {decimals} of a degree"),
+            WrittenStyle::Inches => format!("to {decimals} of an inch"),
         }
     };
     let each: Vec<String> = kinds.iter().map(style).collect();

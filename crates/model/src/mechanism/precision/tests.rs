@@ -480,3 +480,27 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn lengths_that_are_parts_of_an_inch_were_rounded_there() {
+    // 12.345 in, …
+    let texts = [12_345, -671, 3_502, 8_003].map(|mils| (f64::from(mils) * 2.54e-5).to_string());
+    let texts = texts.each_ref().map(String::as_str);
+    let precision = of(&texts);
+    let written = precision.written()[0];
+    assert_eq!(written, Some(Written::Converted(OtherUnit::Inch, 3)));
+    assert!(!precision.is_exact() && !precision.is_of_doubles() && !precision.is_in_full());
+    for text in texts {
+        let off = precision.uncertainty(0, &number(text)) - 1.27e-5;
+        assert!(off.abs() < 1e-6, "{text}: {off:e}");
+    }
+    // Hundredths of an inch were chosen; micrometres are no parts of it.
+    let chosen = ["0.31369", "-0.017018", "0.088900", "0.203454"];
+    for texts in [chosen, ["0.313561", "-0.017043", "0.088951", "0.203276"]] {
+        let written = of(&texts).written()[0];
+        assert!(
+            !matches!(written, Some(Written::Converted(..))),
+            "{texts:?}"
+        );
+    }
+}
