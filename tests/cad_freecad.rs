@@ -207,6 +207,16 @@ fn what_cannot_be_read_is_named_with_what_to_do_instead() {
     );
 }
 
+#[test]
+fn a_joint_that_is_listed_twice_is_one() {
+    let text = crank_slider("").replace("PointLike", "Slider");
+    let listed = "<Link value=\"Joint1\"/>";
+    let twice = text.replace(listed, &listed.repeat(2));
+    assert_ne!(text, twice);
+    let [once, twice] = [text, twice].map(|text| read(&text, "Document.xml", &[]).unwrap());
+    assert_eq!(once.mechanism.joints().len(), twice.mechanism.joints().len());
+}
+
 fn zipped(text: &str) -> Vec<u8> {
     let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
     archive
