@@ -214,7 +214,10 @@ fn a_joint_that_is_listed_twice_is_one() {
     let twice = text.replace(listed, &listed.repeat(2));
     assert_ne!(text, twice);
     let [once, twice] = [text, twice].map(|text| read(&text, "Document.xml", &[]).unwrap());
-    assert_eq!(once.mechanism.joints().len(), twice.mechanism.joints().len());
+    assert_eq!(
+        once.mechanism.joints().len(),
+        twice.mechanism.joints().len()
+    );
 }
 
 fn zipped(text: &str) -> Vec<u8> {
