@@ -161,13 +161,7 @@ fn assemblies_of_freecad_are_read_without_their_shapes() {
     let analysis = analyse(mechanism, &AnalysisOptions::default()).unwrap();
     assert_eq!(analysis.mobility.finite(), Some(1));
     // The same as a zip file.
-    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
-    archive
-        .start_file("Document.xml", zip::write::SimpleFileOptions::default())
-        .unwrap();
-    std::io::Write::write_all(&mut archive, text.as_bytes()).unwrap();
-    let bytes = archive.finish().unwrap().into_inner();
-    let unpacked = kutzbach::format::read_bytes(&bytes, "crank.FCStd", &[]).unwrap();
+    let unpacked = kutzbach::format::read_bytes(&zipped(&text), "crank.FCStd", &[]).unwrap();
     assert_eq!(unpacked.mechanism.joints().len(), mechanism.joints().len());
 }
 
@@ -211,4 +205,48 @@ fn what_cannot_be_read_is_named_with_what_to_do_instead() {
         error.message.starts_with("the zip file cannot be unpacked"),
         "{error}"
     );
+}
+
+#[test]
+fn a_joint_that_is_listed_twice_is_one() {
+    let text = crank_slider("").replace("PointLike", "Slider");
+    let listed = "<Link value=\"Joint1\"/>";
+    let twice = text.replace(listed, &listed.repeat(2));
+    assert_ne!(text, twice);
+    let [once, twice] = [text, twice].map(|text| read(&text, "Document.xml", &[]).unwrap());
+    assert_eq!(
+        once.mechanism.joints().len(),
+        twice.mechanism.joints().len()
+    );
+}
+
+fn zipped(text: &str) -> Vec<u8> {
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    archive
+        .start_file("Document.xml", zip::write::SimpleFileOptions::default())
+        .unwrap();
+    std::io::Write::write_all(&mut archive, text.as_bytes()).unwrap();
+    archive.finish().unwrap().into_inner()
+}
+
+#[test]
+fn faults_inside_a_zip_file_have_their_places() {
+    let folder = crate::support::empty_folder("freecad_faults");
+    for (wrong, told) in [
+        ("Px=\"8O\"", "`8O` is no number"),
+        ("Px=\"1e300\"", "the number is too large"),
+    ] {
+        let text = crank_slider("").replace("PointLike", "Slider");
+        let bytes = zipped(&text.replace("Px=\"80\"", wrong));
+        std::fs::write(folder.join("crank.FCStd"), bytes).unwrap();
+        let mut program = crate::support::program();
+        program.current_dir(&folder).args(["report", "crank.FCStd"]);
+        let output = program.output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        let said = said.replace("\n  │ ", " ");
+        assert!(
+            said.contains("Document.xml:3:") && said.contains(told),
+            "{said}"
+        );
+    }
 }

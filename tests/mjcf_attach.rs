@@ -61,6 +61,27 @@ fn what_is_half_brought_is_told() {
 }
 
 #[test]
+fn a_model_without_a_name_is_called_as_its_file_calls_it() {
+    let folder = empty_folder("mjcf_attach_name");
+    write(&folder, "arm.xml", ARM);
+    write(&folder, "nameless.xml", &ARM.replace(r#" model="arm""#, ""));
+    let main = |attach: &str| {
+        let text = format!(
+            r#"<mujoco><asset><model file="arm.xml"/><model file="nameless.xml"/></asset><worldbody>{attach}</worldbody></mujoco>"#
+        );
+        write(&folder, "main.xml", &text);
+        read_file(folder.join("main.xml"), &[])
+    };
+    for model in ["arm", "MuJoCo Model"] {
+        let attach = format!(r#"<attach model="{model}" body="up" prefix="l_"/>"#);
+        let reading = main(&attach).unwrap();
+        assert!(reading.mechanism.link_named("l_low").is_some(), "{model}");
+    }
+    let error = main(r#"<attach model="amr" body="up" prefix="l_"/>"#).unwrap_err();
+    assert!(error.message.contains("no model `amr`"), "{error}");
+}
+
+#[test]
 fn a_body_of_another_file_is_brought_with_what_couples_it() {
     let folder = empty_folder("mjcf_attach");
     write(&folder, "arm.xml", ARM);

@@ -281,6 +281,14 @@ fn replicates_inside_replicates_multiply() {
     assert_eq!(links[22], "b_10-1");
     is_near(place(&reading.mechanism, "b_10-1"), [1.0, 10.0, 0.0]);
     assert_eq!(reading.mechanism.couplings().len(), 22);
+    // As many digits as the count has, which the last index need not have.
+    for (count, last) in [(9, "b-8"), (10, "b-09"), (11, "b-10"), (100, "b-099")] {
+        let copies = model(&format!(
+            r#"<worldbody><replicate count="{count}" sep="-"><body name="b"/></replicate></worldbody>"#
+        ));
+        let (links, _) = names(&copies.mechanism);
+        assert_eq!(links.last(), Some(&last));
+    }
     let none = model(
         r#"<worldbody><replicate count="0"><body name="b"/></replicate><body name="c"/></worldbody>"#,
     );

@@ -458,6 +458,7 @@ fn what_cannot_be_read_is_told_with_its_place() {
         (format!("{two}<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis>\n<xyz>0 0 0</xyz></axis></joint>"), 2, "the zero vector"),
         ("<link name='a'>\n<pose>1 2 3</pose></link>".to_owned(), 2, "expected 6 numbers, found 3"),
         ("<link name='a'>\n<pose>1 2 3 0 0 nan</pose></link>".to_owned(), 2, "`nan` is no number"),
+        ("<link name='a'>\n<pose>1 2 -1e308 0 0 0</pose></link>".to_owned(), 2, "the number is too large"),
         ("<link name='a'>\n<pose relative_to='x'/></link>".to_owned(), 2, "nothing is called `x`"),
         ("\n<link name='a'><pose relative_to='b'/></link><link name='b'><pose relative_to='a'/></link>".to_owned(), 2, "poses run in a circle"),
         ("<link name='a'/>\n<include><uri>model://arm</uri></include>".to_owned(), 2, "<include> of `model://arm` is not read"),

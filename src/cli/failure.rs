@@ -8,6 +8,7 @@ use kutzbach::report::text::visible;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use std::fmt;
 use std::io::Write;
+use std::path::Path;
 
 /// Why a command did not do what was asked.
 #[derive(Debug)]
@@ -113,6 +114,10 @@ fn source_of(file: &str) -> Option<String> {
     const LARGEST: u64 = 1 << 28;
     // Its lines are gone; the place is told without them.
     if file == STANDARD_INPUT {
+        return Some(String::new());
+    }
+    // What is packed in a file has a place, and no lines to show.
+    if Path::new(file).parent().is_some_and(Path::is_file) {
         return Some(String::new());
     }
     let known = std::fs::metadata(file).ok()?;

@@ -15,6 +15,7 @@ use std::ops::Range;
 
 /// Exact numbers have no largest one, but floating-point geometry does: products of a few of them must stay finite.
 pub(super) const LARGEST: f64 = 1e100;
+const TOO_LARGE: &str = "the number is too large; the largest accepted is 1e100";
 
 /// Numbers and expressions of up to so many bytes are shared; longer ones seldom repeat.
 const LONGEST_SHARED: usize = 24;
@@ -25,14 +26,17 @@ const MOST_SHARED: usize = 4096;
 pub(super) fn numbers(attribute: Attribute<'_>) -> Outcome<Vec<Number>> {
     let words = attribute.value.split_ascii_whitespace();
     words
-        .map(|word| {
-            let number = Number::decimal(word);
-            number
-                .ok()
-                .filter(|number| number.value().abs() <= LARGEST)
-                .ok_or_else(|| attribute.fault(format!("`{}` is no number", cut(word))))
-        })
+        .map(|word| decimal(word).map_err(|message| attribute.fault(message)))
         .collect()
+}
+
+/// A decimal that is not too large; why it is none.
+pub(super) fn decimal(word: &str) -> Result<Number, String> {
+    match Number::decimal(word) {
+        Ok(number) if number.value().abs() <= LARGEST => Ok(number),
+        Ok(_) => Err(TOO_LARGE.to_owned()),
+        Err(_) => Err(format!("{} is no number", quoted(word))),
+    }
 }
 
 /// As many numbers as asked for.
@@ -153,8 +157,7 @@ impl<'a> Reader<'a> {
         let number = number_text::number(token, &mut self.definitions)
             .map_err(|trouble| trouble.placed(place).maybe_help(hints::without_unit(token)))?;
         if number.value().abs() > LARGEST {
-            let message = "the number is too large; the largest accepted is 1e100";
-            return Err(Fault::new(place(0..token.len()), message));
+            return Err(Fault::new(place(0..token.len()), TOO_LARGE));
         }
         let number = match open {
             Some(_) => Number::parameter(token, number),

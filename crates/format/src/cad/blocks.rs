@@ -1,6 +1,7 @@
 //! Text whose structure is its indentation by tabs, as ASMT has it: a line and the lines below it that are further in.
 
 use crate::error::{Fault, Outcome};
+use crate::values::decimal;
 use crate::words::{counted, quoted};
 use kutzbach_math::number::Number;
 use std::ops::Range;
@@ -98,12 +99,7 @@ impl<'a, 't> Block<'a, 't> {
         let numbers: Vec<Number> = self
             .word()
             .split_ascii_whitespace()
-            .map(|word| {
-                Number::decimal(word)
-                    .ok()
-                    .filter(|number| number.value().abs() <= crate::values::LARGEST)
-                    .ok_or_else(|| self.fault(format!("{} is no number", quoted(word))))
-            })
+            .map(|word| decimal(word).map_err(|message| self.fault(message)))
             .collect::<Outcome<_>>()?;
         let count = numbers.len();
         numbers

@@ -133,15 +133,16 @@ impl<'a> Reader<'a> {
         found.map(|(name, _)| *name).collect()
     }
 
-    /// Joints in the groups of joints of an assembly, in their order.
+    /// Joints in the groups of joints of an assembly, in their order, each once however often it is listed.
     fn joints_of(&self, assembly: &str) -> Vec<&'a str> {
         let groups = self.objects[assembly].links("Group");
+        let mut known = BTreeSet::new();
         groups
             .into_iter()
             .filter_map(|name| self.objects.get(name))
             .filter(|object| object.kind == "Assembly::JointGroup")
             .flat_map(|object| object.links("Group"))
-            .filter(|name| self.objects.contains_key(name))
+            .filter(|name| self.objects.contains_key(name) && known.insert(*name))
             .collect()
     }
 

@@ -4,7 +4,7 @@ use crate::element::{Attribute, Element};
 use crate::error::Outcome;
 use crate::frames::radians_of;
 use crate::quaternion::roll_pitch_yaw;
-use crate::values::exactly;
+use crate::values::{decimal, exactly};
 use crate::words::quoted;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::Frame;
@@ -135,14 +135,12 @@ impl<'a> Object<'a> {
 fn millimetres(attribute: Attribute<'_>) -> Outcome<Number> {
     let text = attribute.value.trim();
     let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let metres = exponent
-        .parse::<i32>()
-        .ok()
-        .and_then(|exponent| exponent.checked_sub(3))
-        .and_then(|exponent| Number::decimal(&format!("{digits}e{exponent}")).ok());
-    metres
-        .filter(|metres| metres.value().abs() <= crate::values::LARGEST)
-        .ok_or_else(|| attribute.fault(format!("{} is no number", quoted(text))))
+    let exponent = exponent.parse::<i32>().ok();
+    let metres = match exponent.and_then(|exponent| exponent.checked_sub(3)) {
+        Some(exponent) if Number::decimal(text).is_ok() => decimal(&format!("{digits}e{exponent}")),
+        _ => Err(format!("{} is no number", quoted(text))),
+    };
+    metres.map_err(|message| attribute.fault(message))
 }
 
 /// A placement: millimetres and a quaternion.

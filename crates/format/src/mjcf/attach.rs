@@ -34,6 +34,9 @@ const TAKEN: [&str; 6] = [
     "asset",
 ];
 
+/// MuJoCo's name of a model that has none.
+const NAMELESS: &str = "MuJoCo Model";
+
 /// A text with what it attaches written out.
 ///
 /// # Errors
@@ -113,12 +116,14 @@ fn asked(whole: &Whole) -> Outcome<Asked> {
     let document = xml::parse(&whole.text)?;
     let root = Element::root(&document, &whole.text);
     let models = inside(root, "asset").filter(|part| part.name() == "model");
-    let models: Vec<(&str, &str)> = models
-        .filter_map(|model| {
-            let name = model.attribute("name")?;
-            Some((name.value, model.attribute("file")?.value))
+    let models = models.filter_map(|model| {
+        let file = model.attribute("file")?;
+        Some(match model.attribute("name") {
+            Some(name) => Ok((name.value.to_owned(), file.value)),
+            None => own_name(whole, file).map(|name| (name, file.value)),
         })
-        .collect();
+    });
+    let models: Vec<(String, &str)> = models.collect::<Outcome<_>>()?;
     let mut attachments = Vec::new();
     let worlds = root.elements().filter(|part| part.name() == "worldbody");
     let mut open: Vec<Element<'_>> = worlds.collect();
@@ -134,7 +139,7 @@ fn asked(whole: &Whole) -> Outcome<Asked> {
         };
         let file = models.iter().find(|(name, _)| *name == model.value);
         let Some((_, file)) = file else {
-            let known = models.iter().map(|(name, _)| *name);
+            let known = models.iter().map(|(name, _)| &name[..]);
             return Err(model
                 .fault(format!("there is no model {}", quoted(model.value)))
                 .maybe_help(did_you_mean(model.value, known, ("`", "`"))));
@@ -152,6 +157,16 @@ fn asked(whole: &Whole) -> Outcome<Asked> {
         attachments,
         end: last.map_or(0, |part| stretch(part).end),
     })
+}
+
+/// What a file calls its model, which is the model's name where the file that attaches it gives none.
+fn own_name(whole: &Whole, file: Attribute<'_>) -> Outcome<String> {
+    let found = whole.model(file.range().start, file.value);
+    let (_, text) = found.map_err(|message| file.fault(message))?;
+    let document = xml::parse(&text)
+        .map_err(|fault| file.fault(format!("{}: {}", quoted(file.value), fault.message)))?;
+    let own = Element::root(&document, &text).attribute("model");
+    Ok(own.map_or(NAMELESS, |own| own.value).to_owned())
 }
 
 /// The elements in all sections of a name.

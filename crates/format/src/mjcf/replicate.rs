@@ -1,6 +1,6 @@
 //! `<replicate count offset euler sep>`: copies of what is inside, written out before anything is read.
 //!
-//! Copy i is a `<frame>` that is moved and turned i times as far, and every name in it ends with `sep` and i, padded to the digits of the last one; where
+//! Copy i is a `<frame>` that is moved and turned i times as far, and every name in it ends with `sep` and i, padded to the digits of the count; where
 //! replicates are nested, the inner one's comes first. What in `<equality>`, `<tendon>` and `<actuator>` names something by the name that it
 //! has inside is written once for each copy, with the names of that copy. So much is what MuJoCo's compiler makes of such files.
 
@@ -222,7 +222,7 @@ impl<'a> Plan<'a> {
         // At most MOST_COPIES, and whole.
         let count = count as usize;
         let own = element.attribute("sep").map_or("", |sep| sep.value);
-        let digits = count.saturating_sub(1).to_string().len();
+        let digits = count.to_string().len();
         let outer = around
             .and_then(|around| around.first())
             .map_or(0, String::len);
