@@ -73,6 +73,14 @@ fn bennetts_condition_is_one_point_of_a_range() {
 }
 
 #[test]
+fn a_dash_is_standard_output() {
+    let asked = [SPOILED, "--over", "off=-1..1:3", "--depth", "rank"];
+    let dashed = [&asked[..], &["-o", "-"]].concat();
+    assert_eq!(done(&dashed), done(&asked));
+    assert!(!Path::new(env!("CARGO_MANIFEST_DIR")).join("-").exists());
+}
+
+#[test]
 fn the_rank_has_fewer_columns() {
     let csv = done(&[SPOILED, "--over", "off=0,0.001", "--depth", "rank"]);
     let rows = rows(&csv);
@@ -350,6 +358,7 @@ fn the_border_is_refined_to_the_same_bytes() {
     assert!(misses - reaches <= 1.5 / 64.0, "{reaches} {misses}");
     for wrong in [
         &["--refine", "6"][..],
+        &["--refine", "6", "-o", "-"],
         &["--refine", "0", "-o", csv_file],
         &["--refine", "6", "--shard", "1/2", "-o", csv_file],
     ] {

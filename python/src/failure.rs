@@ -68,6 +68,14 @@ impl Failure {
         }
     }
 
+    /// Of a file without a text: there is no place in it.
+    pub fn of_unread(error: FormatError) -> Self {
+        Self::Plain {
+            message: format!("{}: {}", error.file, error.message),
+            help: error.help,
+        }
+    }
+
     /// What a panic said.
     pub fn of_panic(fault: &(dyn Any + Send)) -> Self {
         let said = fault

@@ -85,7 +85,7 @@ pub fn read_file(py: Python<'_>, path: PathBuf, asked: &str) -> PyResult<Reading
     watched(py, move |_| {
         let options = asked::parsed::<Read>(&asked)?.options();
         let source = Source {
-            bytes: file_bytes(&path)?,
+            bytes: file_bytes(&path).map_err(Failure::of_unread)?,
             file: path.display().to_string(),
             base: Some(path),
             options,

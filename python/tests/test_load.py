@@ -77,8 +77,9 @@ def test_further_faults_are_told_together() -> None:
 
 
 def test_what_is_not_there_is_an_error() -> None:
-    with pytest.raises(kutzbach.MechanismError):
+    with pytest.raises(kutzbach.MechanismError, match=r"^no/such/file\.urdf: cannot be read") as caught:
         kutzbach.load("no/such/file.urdf")
+    assert (caught.value.line, caught.value.column) == (None, None)
     with pytest.raises(kutzbach.MechanismError, match="widt"):
         kutzbach.load(ARM, widt=1)
     with pytest.raises(KeyError):

@@ -21,6 +21,11 @@ def test_mujoco_is_read_from_its_text(project: Path) -> None:
     assert counts(kutzbach.from_mujoco(path)) == counts(kutzbach.load(path))
 
 
+def test_what_is_no_model_is_named() -> None:
+    with pytest.raises(TypeError, match="MjModel, found a value of type int"):
+        kutzbach.from_mujoco(3)
+
+
 def test_mujoco_is_read_from_a_model(project: Path) -> None:
     mujoco = pytest.importorskip("mujoco")
     path = str(project / LOADER)

@@ -35,6 +35,7 @@ def test_a_sweep_takes_whatever_has_values(linkage: kutzbach.Mechanism) -> None:
         assert kutzbach.sweep(linkage, {"crank": single, "coupler": [3, 4]}, depth="rank").column("crank") == [2, 2]
     rows = kutzbach.sweep(linkage, {"crank": "1..2:3"}, depth="rank")
     assert rows[-1] == rows.rows[2] and rows[:2] == rows.rows[:2]
+    assert rows._repr_html_().count("<tr>") == 4 and "<th>crank</th>" in rows._repr_html_()
     assert len(repr(kutzbach.sweep(linkage, {"crank": numpy.linspace(1, 2, 30)}, depth="rank"))) < 100
 
 

@@ -18,7 +18,7 @@ impl Destination {
     /// The file, where one was named.
     #[must_use]
     pub fn file(&self) -> Option<&Path> {
-        self.output.as_deref()
+        named(self.output.as_deref())
     }
 
     /// Writes the answer there.
@@ -28,6 +28,12 @@ impl Destination {
     pub fn put(&self, text: &str) -> Result<(), Failure> {
         put(text, self.file())
     }
+}
+
+/// The file of that name; none for `-`, which is standard output as it is standard input.
+#[must_use]
+pub fn named(file: Option<&Path>) -> Option<&Path> {
+    file.filter(|file| *file != Path::new("-"))
 }
 
 /// Writes a text to the file, or to standard output where there is none.

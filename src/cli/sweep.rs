@@ -7,6 +7,7 @@ use super::DONE;
 use super::failure::Failure;
 use super::interrupt::{self, INTERRUPTED};
 use super::load::{self, STANDARD_INPUT};
+use super::output;
 use super::pool::{Event, in_order};
 use super::progress::Progress;
 use clap::{Args, ValueEnum};
@@ -75,19 +76,32 @@ enum Format {
     Jsonl,
 }
 
+impl Arguments {
+    /// The file of rows, where there is one.
+    fn file(&self) -> Option<&Path> {
+        output::named(self.output.as_deref())
+    }
+}
+
 /// Runs the command.
 ///
 /// # Errors
 /// Where the file cannot be read or has no such measure, or the output cannot be written. What is wrong with one variant is told in its
 /// row.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    if arguments.refine.is_some() && arguments.file().is_none() {
+        return Err(Failure::Plain {
+            message: "`--refine` looks at the rows of a file, and there is none".to_owned(),
+            help: Some("write the sweep to one: `-o out.csv`".to_owned()),
+        });
+    }
     let plan = Plan::new(arguments.over.clone(), arguments.sample).map_err(asked_wrongly)?;
     let shard = arguments.shard.unwrap_or_default();
     let family = family(arguments, plan)?;
     let table = Table::new(&family, shard, form(arguments));
     let count = shard.count(family.plan().count());
     interrupt::listen();
-    let mut sink = Sink::open(arguments.output.as_deref(), &table, shard, count)?;
+    let mut sink = Sink::open(arguments.file(), &table, shard, count)?;
     let before = sink.rows();
     let mut progress = progress_wanted(arguments).then(|| Progress::new("sweeping"));
     let mut tally = Tally::default();
@@ -127,14 +141,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         eprintln!(
             "note: stopped after {} of {count} rows{}",
             sink.rows(),
-            match arguments.output {
+            match arguments.file() {
                 Some(_) => "; the same command goes on",
                 None => "",
             }
         );
         return Ok(INTERRUPTED);
     }
-    match (arguments.refine, &arguments.output) {
+    match (arguments.refine, arguments.file()) {
         (Some(steps), Some(path)) => refine::refine(&members, &table, path, steps, &mut sink),
         _ => Ok(DONE),
     }
@@ -142,7 +156,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 
 /// Rows on a terminal show by themselves how far the work has come.
 fn progress_wanted(arguments: &Arguments) -> bool {
-    arguments.output.is_some() || !std::io::stdout().is_terminal()
+    arguments.file().is_some() || !std::io::stdout().is_terminal()
 }
 
 fn family(arguments: &Arguments, plan: Plan) -> Result<Family, Failure> {
@@ -177,7 +191,7 @@ fn family(arguments: &Arguments, plan: Plan) -> Result<Family, Failure> {
 }
 
 fn form(arguments: &Arguments) -> Form {
-    let ending = arguments.output.as_deref().and_then(Path::extension);
+    let ending = arguments.file().and_then(Path::extension);
     match arguments.format {
         Some(Format::Csv) => Form::Csv,
         Some(Format::Jsonl) => Form::JsonLines,

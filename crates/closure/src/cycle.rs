@@ -67,10 +67,9 @@ impl<R: Real> WalkedCycle<R> {
                 frame
             };
             reach = reach.max(far(&joint_frame.translation));
-            let screws = screws
-                .iter()
-                .map(|screw| screw.moved(&joint_frame))
-                .collect();
+            // In the memory of those that they come from.
+            let screws = screws.into_iter();
+            let screws = screws.map(|screw| screw.moved(&joint_frame)).collect();
             joints.push(WalkedJoint {
                 joint,
                 forward,

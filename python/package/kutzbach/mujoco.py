@@ -15,6 +15,7 @@ from ._errors import MechanismError
 from ._mechanism import Mechanism, load
 from .build import Builder, Frame
 
+
 def from_mujoco(source: Any, **measures: Value) -> Mechanism:
     """A mechanism from an MJCF file (a path or its text), or from a compiled ``MjModel``.
 
@@ -25,6 +26,8 @@ def from_mujoco(source: Any, **measures: Value) -> Mechanism:
     """
     if isinstance(source, (str, os.PathLike)):
         return load(source, measures=measures)
+    if not hasattr(source, "nbody"):
+        raise TypeError(f"needed an MJCF file, its text or an MjModel, found a value of type {type(source).__name__}")
     if measures:
         raise TypeError("a compiled model has no measures")
     return _Model(source).builder().build()

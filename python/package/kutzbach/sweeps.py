@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 import time
@@ -132,6 +133,14 @@ class Sweep:
         over = ", ".join(own if len(own) <= _SHOWN else f"{own[:_SHOWN]}…" for own in self.head["over"])
         plural = "" if len(self) == 1 else "s"
         return f"<Sweep over {over}: {len(self)} row{plural}>"
+
+    def _repr_html_(self) -> str:
+        def cells(tag: str, values: Iterable[Any]) -> str:
+            shown = ("" if value is None else html.escape(str(value)) for value in values)
+            return "<tr>" + "".join(f"<{tag}>{value}</{tag}>" for value in shown) + "</tr>"
+
+        rows = [cells("th", self.columns), *(cells("td", row.values()) for row in self.rows[:_FIRST])]
+        return f"<p>{html.escape(repr(self))}</p><table>{''.join(rows)}</table>"
 
 
 def _row(told: Mapping[str, Any]) -> dict[str, Any]:
