@@ -205,23 +205,44 @@ pub fn entry_accuracy<R: Real>(jacobian: &CycleJacobian<R>) -> (f64, f64) {
 
 /// The share of one cycle's numbers in [`entry_accuracy`], if they are known to within this together.
 pub fn stated_by<R: Real>(walk: &WalkedCycle<R>, uncertainty: &Uncertainty) -> f64 {
+    stated_over(walk, uncertainty, walk.screw_count())
+}
+
+/// The same over so many columns.
+fn stated_over<R: Real>(walk: &WalkedCycle<R>, uncertainty: &Uncertainty, columns: usize) -> f64 {
     let Uncertainty { lengths, angles } = uncertainty;
     let places = lengths / walk.length;
     let tilts = angles * (walk.extent / walk.length).hypot(1.0);
-    2.0 * (walk.screw_count() as f64).sqrt() * places.hypot(tilts)
+    2.0 * (columns as f64).sqrt() * places.hypot(tilts)
 }
 
 /// The share of the arithmetic in [`entry_accuracy`].
 pub fn rounding_of<R: Real>(walks: &[WalkedCycle<R>], roundoff: f64) -> f64 {
-    let mut rounding = 0.0f64;
-    for walk in walks {
-        let spread = (2.0 * walk.screw_count() as f64).sqrt();
-        // Each joint composes three displacements; a dozen roundings of coordinates up to the reach, in units of length.
-        let steps = 12.0 * walk.joints.len() as f64;
-        rounding = rounding.max(spread * steps * roundoff * (1.0 + walk.reach / walk.length));
-    }
+    let of_walks = walks
+        .iter()
+        .map(|walk| rounding_over(walk, roundoff, walk.screw_count()));
     // Couplings: their factors are exact or rounded like any number; one rounding each.
-    rounding.max(4.0 * roundoff)
+    of_walks.fold(4.0 * roundoff, f64::max)
+}
+
+/// The share of the arithmetic in one cycle, over so many columns.
+fn rounding_over<R: Real>(walk: &WalkedCycle<R>, roundoff: f64, columns: usize) -> f64 {
+    let spread = (2.0 * columns as f64).sqrt();
+    // Each joint composes three displacements; a dozen roundings of coordinates up to the reach, in units of length.
+    let steps = 12.0 * walk.joints.len() as f64;
+    spread * steps * roundoff * (1.0 + walk.reach / walk.length)
+}
+
+/// What is left open of whether a cycle of fixed joints closes (rad, cycle lengths): by its numbers as they are stated, and by rounding. It has no
+/// entries, so that [`entry_accuracy`] says nothing of it, and nothing in it can make up for what its numbers leave. Zero where something moves.
+pub fn accuracy_of_fixed<R: Real>(walk: &WalkedCycle<R>, roundoff: f64) -> (f64, f64) {
+    match walk.screw_count() {
+        0 => (
+            stated_over(walk, &walk.uncertainty, 1),
+            rounding_over(walk, roundoff, 1),
+        ),
+        _ => (0.0, 0.0),
+    }
 }
 
 #[cfg(test)]

@@ -16,7 +16,8 @@ use std::cmp::Ordering;
 /// The least distance of points of the two, never below zero.
 ///
 /// Of point, line, segment and plane each with each, and of each of them and a face with a face; of point and plane with
-/// circle, cylinder, cone and sphere, of a line and a segment with cylinder and sphere, of cylinder and sphere each with each, all of which are empty:
+/// circle, cylinder, cone and sphere, of a line and a segment with cylinder and sphere, of cylinder and sphere each with each, of a sphere with circle and
+/// cone, and of circles, cylinders and cones where these are parallel or have one axis, all of which are empty:
 /// a point inside is away from them. What meets has distance 0; whether lines or planes do is a choice, of which [`Outcome::certainty`] tells the
 /// ground.
 ///

@@ -328,6 +328,12 @@ pub enum Found<S> {
     Boundary(Boundary<S>),
     /// A circle.
     Circle(Circle<S>),
+    /// A cylinder.
+    Cylinder(Cylinder<S>),
+    /// A cone.
+    Cone(Cone<S>),
+    /// A sphere.
+    Sphere(Sphere<S>),
     /// Two or more of these, none of which has others inside.
     Several(Vec<Found<S>>),
 }
@@ -377,6 +383,9 @@ impl<S> Found<S> {
             Self::Face(x) => Some(Entity::Face(x)),
             Self::Boundary(x) => Some(Entity::Boundary(x)),
             Self::Circle(x) => Some(Entity::Circle(x)),
+            Self::Cylinder(x) => Some(Entity::Cylinder(x)),
+            Self::Cone(x) => Some(Entity::Cone(x)),
+            Self::Sphere(x) => Some(Entity::Sphere(x)),
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::decide::{Decider, Outcome};
 use crate::entity::{Direction, Entity, Found, Line, Plane, Point, Segment, no_pair};
 use crate::error::GeometryError;
 use crate::intersection_round::with_round;
+use crate::intersection_rounds::of_rounds;
 use crate::scalar::Scalar;
 use crate::triple::{along, cross, dot, minus, square};
 use std::cmp::Ordering;
@@ -12,12 +13,13 @@ use std::cmp::Ordering;
 /// The points that belong to both: nothing, a point, a line, a segment or a plane; with a face a set of segments and points,
 /// or the face itself in its own plane; with what is round a set of points or lines, or a circle.
 ///
-/// Of line, segment and plane each with each, with a face, and with circle, cylinder, cone and sphere, but not of two segments. Two measured lines never certainly meet: where they
+/// Of line, segment and plane each with each, with a face, and with circle, cylinder, cone and sphere, but not of two segments; of circle, cylinder,
+/// cone and sphere each with each. Two measured lines never certainly meet: where they
 /// may within their digits, the point is on the first one, and the certainty says so.
 ///
 /// # Errors
-/// For other pairs, and beyond the range of numbers; for a line along the side of a cone, of which half is common, and for a plane that cuts an
-/// ellipse or another conic that is no circle.
+/// For other pairs, and beyond the range of numbers; for a line along the side of a cone, of which half is common, for a plane that cuts an
+/// ellipse or another conic that is no circle, and for surfaces that meet in a curve that is neither a circle nor a line.
 pub fn intersection<S: Scalar>(
     a: &Entity<S>,
     b: &Entity<S>,
@@ -45,7 +47,10 @@ pub fn intersection<S: Scalar>(
             boundary::of_plane(p, f, &mut decider)?
         }
         _ => {
-            let found = with_round(a, b, &mut decider)?;
+            let found = match with_round(a, b, &mut decider)? {
+                None => of_rounds(a, b, &mut decider)?,
+                found => found,
+            };
             found.ok_or_else(|| no_pair("intersection", a, b))?
         }
     };

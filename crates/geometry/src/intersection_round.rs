@@ -40,7 +40,8 @@ pub(crate) fn with_round<S: Scalar>(
     }
 }
 
-fn of_line<S: Scalar>(
+/// Of a line and something round; none where that is not round.
+pub(crate) fn of_line<S: Scalar>(
     line: &Line<S>,
     round: &Entity<S>,
     decider: &mut Decider,
@@ -135,7 +136,12 @@ fn met<S: Scalar>(
 }
 
 /// The roots of `a t² + 2 b t + c`, of which `a` was found to differ from zero; a double one once.
-fn roots<S: Scalar>(a: &S, b: &S, c: &S, decider: &mut Decider) -> Result<Vec<S>, GeometryError> {
+pub(crate) fn roots<S: Scalar>(
+    a: &S,
+    b: &S,
+    c: &S,
+    decider: &mut Decider,
+) -> Result<Vec<S>, GeometryError> {
     let inner = b.squared().minus(&a.times(c));
     let back = b.negated();
     Ok(match decider.order(&inner) {
@@ -248,7 +254,8 @@ fn in_cone<S: Scalar>(
     Ok(Met::At(own))
 }
 
-fn of_plane<S: Scalar>(
+/// Of a plane and something round; none where that is not round.
+pub(crate) fn of_plane<S: Scalar>(
     plane: &Plane<S>,
     round: &Entity<S>,
     decider: &mut Decider,
@@ -361,7 +368,8 @@ fn askew() -> GeometryError {
     }
 }
 
-fn across<S: Scalar>(
+/// The circle about an axis at a centre.
+pub(crate) fn across<S: Scalar>(
     centre: Point<S>,
     axis: &Direction<S>,
     radius: S,

@@ -45,7 +45,8 @@ pub fn join_perpend<S: Scalar>(
     Ok(decider.outcome(found))
 }
 
-fn feet_of_lines<S: Scalar>(
+/// The ends of the common perpendicular of two lines.
+pub(crate) fn feet_of_lines<S: Scalar>(
     a: &Line<S>,
     b: &Line<S>,
     decider: &mut Decider,

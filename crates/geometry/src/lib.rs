@@ -43,11 +43,13 @@ pub mod features;
 mod hull;
 mod intersection;
 mod intersection_round;
+mod intersection_rounds;
 mod join;
 mod logical;
 mod measured;
 mod planar;
 mod projection;
+mod projection_round;
 #[cfg(test)]
 mod random_faces;
 #[cfg(test)]

@@ -7,6 +7,7 @@ use crate::error::GeometryError;
 use crate::intersection::{of_lines, with_plane};
 use crate::join::{on_line, on_plane};
 use crate::planar::Place;
+use crate::projection_round::{circle_on_plane, on_what_is_round};
 use crate::scalar::Scalar;
 use crate::triple::{cross, minus};
 
@@ -16,8 +17,12 @@ use crate::triple::{cross, minus};
 /// light has a point for a shadow. On a face it is what of the shadow on its plane belongs to the face: a set of
 /// segments and points. Nothing where the direction runs along the plane, and where a point's ray misses the line.
 ///
+/// Of a point on a circle, a cylinder, a cone or a sphere: the nearest point of it, or all points that the line of the light meets, to either side. Of a
+/// circle on a plane parallel to its own a circle, at right angles to it, in perpendicular light, a segment.
+///
 /// # Errors
-/// For other pairs, and beyond the range of numbers.
+/// For other pairs, and beyond the range of numbers; for a point on the axis or centre of what is round, to which a whole circle is as near; for a
+/// circle whose shadow is an ellipse.
 pub fn projection<S: Scalar>(
     a: &Entity<S>,
     on: &Entity<S>,
@@ -52,6 +57,19 @@ pub fn projection<S: Scalar>(
         (Entity::Segment(segment), Entity::Face(face)) => {
             let whole = of_segment(segment, face.plane(), light, &mut decider)?;
             on_face(whole, face, &mut decider)?
+        }
+        (Entity::Circle(circle), Entity::Plane(plane)) => {
+            match shadow(&circle.centre().0, plane, light, &mut decider)? {
+                Some(centre) => {
+                    let is_straight = light.is_none();
+                    circle_on_plane(circle, plane, Point(centre), is_straight, &mut decider)?
+                }
+                None => Found::Nothing,
+            }
+        }
+        (Entity::Point(p), round) => {
+            let found = on_what_is_round(p, round, light, &mut decider)?;
+            found.ok_or_else(|| no_pair("projection", a, on))?
         }
         _ => return Err(no_pair("projection", a, on)),
     };

@@ -38,12 +38,14 @@ fn radius<S: Scalar>(entity: &Entity<S>) -> Option<&S> {
     }
 }
 
-fn on_axis<S: Scalar>(point: &Point<S>, axis: &Line<S>) -> Answer {
+/// Whether a point is on an axis.
+pub(crate) fn on_axis<S: Scalar>(point: &Point<S>, axis: &Line<S>) -> Answer {
     let offset = minus(&point.0, &axis.point().0);
     zero_vector(&cross(&offset, axis.direction().components()))
 }
 
-fn one_axis<S: Scalar>(a: &Line<S>, b: &Line<S>) -> Answer {
+/// Whether two axes are one.
+pub(crate) fn one_axis<S: Scalar>(a: &Line<S>, b: &Line<S>) -> Answer {
     let turned = cross(a.direction().components(), b.direction().components());
     zero_vector(&turned).and(on_axis(b.point(), a))
 }
@@ -307,7 +309,10 @@ pub(crate) fn distance_round<S: Scalar>(
 }
 
 /// How far a point is from an axis, and along it from the point that it was made from.
-fn from_axis<S: Scalar>(point: &[S; 3], axis: &Line<S>) -> Result<(S, S), GeometryError> {
+pub(crate) fn from_axis<S: Scalar>(
+    point: &[S; 3],
+    axis: &Line<S>,
+) -> Result<(S, S), GeometryError> {
     let direction = axis.direction().components();
     let offset = minus(point, &axis.point().0);
     let size = length(direction)?;
@@ -322,7 +327,7 @@ fn height<S: Scalar>(plane: &Plane<S>, point: &Point<S>) -> Result<S, GeometryEr
 }
 
 /// What is left of a distance beyond a radius; zero within it.
-fn beyond<S: Scalar>(away: &S, radius: &S, decider: &mut Decider) -> S {
+pub(crate) fn beyond<S: Scalar>(away: &S, radius: &S, decider: &mut Decider) -> S {
     let rest = away.minus(radius);
     match decider.order(&rest) {
         Ordering::Greater => rest,
@@ -362,17 +367,26 @@ fn plane_to_circle<S: Scalar>(
     Ok(beyond(&away, &reach, decider))
 }
 
-fn point_to_cone<S: Scalar>(
+/// The distance of a point from a cone.
+pub(crate) fn point_to_cone<S: Scalar>(
     point: &Point<S>,
     cone: &Cone<S>,
     decider: &mut Decider,
 ) -> Result<S, GeometryError> {
-    let (away, along) = from_axis(&point.0, cone.axis())?;
-    let tangent = cone.tangent();
+    let from_axis = from_axis(&point.0, cone.axis())?;
+    place_to_cone(&from_axis, cone.tangent(), decider)
+}
+
+/// The same of a place so far from the axis, and so far along it from the apex.
+pub(crate) fn place_to_cone<S: Scalar>(
+    (away, along): &(S, S),
+    tangent: &S,
+    decider: &mut Decider,
+) -> Result<S, GeometryError> {
     // In the half plane of the axis and the point the side is a ray from the apex.
     let way = along.plus(&away.times(tangent));
     if decider.order(&way) == Ordering::Less {
-        return length(&minus(&point.0, &cone.apex().0));
+        return root(&away.squared().plus(&along.squared()));
     }
     let across = away.minus(&along.times(tangent)).magnitude();
     let size = root(&tangent.squared().plus(&S::whole(1)))?;

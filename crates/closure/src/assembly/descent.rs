@@ -2,7 +2,7 @@
 
 use super::super::displacement::JointState;
 use super::super::geometry::Geometry;
-use super::super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
+use super::super::jacobian::{CycleJacobian, Part, accuracy_of_fixed, entry_accuracy, jacobian};
 use super::nearest::COMMENSURATE;
 use kutzbach_math::matrix::{LeastSquares, MatrixError, Real, SplitMix64};
 use kutzbach_math::space::{length, subtract};
@@ -205,7 +205,7 @@ pub(super) fn descend(
             least.min(given / walk.length)
         });
     }
-    let mut residual = largest(&here.residual);
+    let mut residual = open_where_something_moves(&here);
     let mut steps = 0;
     let mut caution = 1.0f64;
     let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
@@ -253,7 +253,7 @@ pub(super) fn descend(
             let stalled = reached > square * (1.0 - 1e-6);
             halved = reached <= 0.25 * square;
             here = there;
-            residual = largest(&here.residual);
+            residual = open_where_something_moves(&here);
             caution = (caution * 0.25).max(1e-6);
             if stalled {
                 break;
@@ -268,9 +268,9 @@ pub(super) fn descend(
         }
     }
     // What still counts as closed is the uncertainty of a walk around the cycle, which is that of a Jacobian entry.
-    let allowed = |length: f64| match task.tolerance {
-        None => stated + rounding,
-        Some(given) => given / length + rounding,
+    let allowed = |length: f64, fixed: (f64, f64)| match task.tolerance {
+        None => stated + rounding + fixed.0 + fixed.1,
+        Some(given) => given / length + rounding + fixed.1,
     };
     let (residual, tolerance, length) = worst_of(&here, allowed);
     Ok(PartOutcome {
@@ -285,24 +285,40 @@ pub(super) fn descend(
 }
 
 /// The equation that exceeds what is allowed by most, or comes closest to that: its residual, what it may be, and the length by
-/// which it counts (m). `allowed` says what an equation may leave (rad, lengths of its cycle) that counts by a length (m): that of the
-/// cycle, for couplings that of the part.
-fn worst_of(here: &CycleJacobian<f64>, allowed: impl Fn(f64) -> f64) -> (f64, f64, f64) {
+/// which it counts (m). `allowed` says what an equation may leave (rad, lengths of its cycle) that counts by a length (m), that of the
+/// cycle, for couplings that of the part, where a cycle of fixed joints is as accurate as this.
+fn worst_of(
+    here: &CycleJacobian<f64>,
+    allowed: impl Fn(f64, (f64, f64)) -> f64,
+) -> (f64, f64, f64) {
     let of_cycles = 6 * here.walks.len();
-    let may = |length: f64| allowed(length).min(COARSEST_CLOSING);
-    let mut worst = (0.0f64, may(here.length), here.length);
-    let mut heed = |rows: &[f64], length: f64| {
-        let found = largest(rows);
+    let roundoff = here.matrix.zero().unit_roundoff();
+    let may = |length: f64, fixed: (f64, f64)| allowed(length, fixed).min(COARSEST_CLOSING);
+    let mut worst = (0.0f64, may(here.length, (0.0, 0.0)), here.length);
+    let mut heed = |rows: &[f64], length: f64, fixed: (f64, f64)| {
+        let (found, may) = (largest(rows), may(length, fixed));
         // What is not a number must not pass for small.
-        if !worst.0.is_nan() && !(found * worst.1 <= worst.0 * may(length)) {
-            worst = (found, may(length), length);
+        if !worst.0.is_nan() && !(found * worst.1 <= worst.0 * may) {
+            worst = (found, may, length);
         }
     };
     for (walk, rows) in here.walks.iter().zip(here.residual.chunks(6)) {
-        heed(rows, walk.length);
+        heed(rows, walk.length, accuracy_of_fixed(walk, roundoff));
     }
-    heed(here.residual.get(of_cycles..).unwrap_or(&[]), here.length);
+    let of_couplings = here.residual.get(of_cycles..).unwrap_or(&[]);
+    heed(of_couplings, here.length, (0.0, 0.0));
     worst
+}
+
+/// How far the equations are open that have something to close them by: all but those of cycles of fixed joints.
+fn open_where_something_moves(here: &CycleJacobian<f64>) -> f64 {
+    let of_cycles = here.walks.iter().zip(here.residual.chunks(6));
+    let moving = of_cycles
+        .filter(|(walk, _)| walk.screw_count() > 0)
+        .map(|(_, rows)| rows);
+    let of_couplings = here.residual.get(6 * here.walks.len()..).unwrap_or(&[]);
+    let all: Vec<f64> = moving.chain([of_couplings]).map(largest).collect();
+    largest(&all)
 }
 
 /// What one step costs in floating-point operations, roughly: walking the cycles, and solving for the step as

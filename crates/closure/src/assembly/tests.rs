@@ -8,7 +8,7 @@ use super::*;
 use crate::Structure;
 use kutzbach_math::number::Number;
 use kutzbach_math::space::{length, subtract};
-use kutzbach_model::mechanism::{JointKind, MechanismBuilder};
+use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind, MechanismBuilder};
 
 fn number(x: f64) -> Number {
     Number::from_f64(x).unwrap()
@@ -42,6 +42,37 @@ fn what_is_drawn_closed_is_left_alone() {
                 .iter()
                 .all(|gap| gap.position < 1e-15 && gap.angle < 1e-15)
         );
+    }
+}
+
+/// Three plates fixed to each other in a ring, as an assembly of glued parts has them: what the walk around leaves is rounding, or the digits of
+/// decimals, and nothing moves that could take it away.
+#[test]
+fn a_loop_of_fixed_joints_closes_to_rounding_and_within_its_digits() {
+    let made = |number: &dyn Fn(i64) -> Number, off: i64| {
+        let at = |units: [i64; 3]| Frame::at(units.map(number));
+        let mut builder = MechanismBuilder::new("plates");
+        for link in ["a", "b", "c"] {
+            builder.link(link);
+        }
+        let fixed = JointKind::Fixed;
+        let first = JointBuilder::tree("ab", fixed, "a", "b");
+        builder.joint(first.origin(at([7664, -1563, -3914])));
+        let second = JointBuilder::tree("ac", fixed, "a", "c");
+        builder.joint(second.origin(at([6864, -2814, -4173])));
+        let third = JointBuilder::closing("bc", fixed, "b", "c").origin(at([150, -1057, -1189]));
+        builder.joint(third.successor_origin(at([950 + off, 194, -930])));
+        builder.build().unwrap()
+    };
+    let exact = |units: i64| Number::ratio(units, 100_000).unwrap();
+    let rounded = |units: i64| Number::decimal(&format!("{:.5}", units as f64 / 1e5)).unwrap();
+    for (off, closed) in [(0, [true, true]), (1, [false, true]), (100, [false, false])] {
+        let found = [made(&exact, off), made(&rounded, off)].map(|mechanism| {
+            let (_, assembly) = assembled(&mechanism, &[]);
+            assert!(!assembly.closed || assembly.steps == 0, "{assembly:?}");
+            assembly.closed
+        });
+        assert_eq!(found, closed, "off by {off}");
     }
 }
 

@@ -29,6 +29,7 @@ mod logical;
 mod measures;
 mod meets;
 mod moved;
+mod rounds;
 
 type Three = [i32; 3];
 
