@@ -213,8 +213,7 @@ pub(super) fn are_parallel(Direction(a): &Direction, Direction(b): &Direction) -
     let differs = |i: usize, j: usize| {
         let [one, other] = [(i, j), (j, i)].map(|(i, j)| a[i].value() * b[j].value());
         let size = one.abs() + other.abs();
-        size > f64::MIN_POSITIVE / f64::EPSILON
-            && (one - other).abs() > 8.0 * f64::EPSILON * size
+        size > f64::MIN_POSITIVE / f64::EPSILON && (one - other).abs() > 8.0 * f64::EPSILON * size
     };
     let minors = [(0, 1), (1, 2), (2, 0)];
     !minors.into_iter().any(|(i, j)| differs(i, j))
