@@ -152,11 +152,13 @@ fn files_that_cannot_be_read() {
     let large = Temporary::new("large.urdf");
     let mut file = std::fs::File::create(&large.0).unwrap();
     file.write_all(b"<robot name='r'>").unwrap();
-    // Sparse: 100 MB that take no room on the disk.
-    file.set_len(100_000_000).unwrap();
+    // Sparse: 200 MB that take no room on the disk.
+    file.set_len(200_000_000).unwrap();
     let started = std::time::Instant::now();
     let error = read_file(&large.0, &[]).unwrap_err();
-    assert!(error.message.contains("more than 64 MiB"), "{error}");
+    assert!(error.message.contains("within 2 GB of memory"), "{error}");
+    let help = error.help.as_deref().unwrap_or_default();
+    assert!(help.contains("`--memory 4` allows"), "{help}");
     assert!(
         started.elapsed().as_millis() < 1000,
         "a large file is refused unread"

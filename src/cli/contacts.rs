@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::{DONE, load, output, terminal};
 use clap::Args;
 use kutzbach::format::{
-    ContactRow, ContactSeen, ContactTable, Corrections, PairCorrection, PairRule, Reason,
+    ContactRow, ContactSeen, ContactTable, Corrections, MEMORY, PairCorrection, PairRule, Reason,
     contact_table, file_bytes,
 };
 use kutzbach::report::text::words::{counted, figure, metres};
@@ -41,7 +41,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let corrections = arguments.contacts.as_ref().unwrap_or(&none);
     let found = match arguments.file == Path::new("-") {
         true => {
-            let text = load::standard_input()?;
+            let text = load::standard_input(MEMORY)?;
             contact_table(text.as_bytes(), load::STANDARD_INPUT, corrections)?
         }
         false => {

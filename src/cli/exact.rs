@@ -77,9 +77,6 @@ pub struct Arguments {
         help_heading = "Limits of work"
     )]
     time: f64,
-    /// Fill at most so many gigabytes of memory; what would not fit is not computed
-    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = load::gigabytes, help_heading = "Limits of work")]
-    memory: u64,
     /// Exit with code 3 if it stopped before everything was answered
     #[arg(long)]
     strict: bool,
@@ -444,7 +441,7 @@ fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
     let limits = Limits {
         cancelled: Some(interrupt::flag()),
         progress: Some(Arc::clone(&progress)),
-        entries: Some(entries_in(arguments.memory)),
+        entries: Some(entries_in(arguments.source.memory)),
         ..Limits::seconds(seconds)
     };
     let file = arguments.source.file.display().to_string();

@@ -5,7 +5,7 @@ use super::files::cannot_read;
 use super::load::{STANDARD_INPUT, standard_input};
 use super::{DONE, output};
 use clap::Args;
-use kutzbach::format::FormatError;
+use kutzbach::format::{FormatError, MEMORY};
 use kutzbach::number::Number;
 use kutzbach::report::text::visible;
 use kutzbach_geometry::ask::{Answers, Session, Shown, Told, Transcript};
@@ -140,7 +140,7 @@ fn told(text: &str) -> String {
 /// The name and the text of a file, or of standard input.
 pub fn read(file: &Path) -> Result<(String, String), Failure> {
     if file == Path::new("-") {
-        return Ok((STANDARD_INPUT.to_owned(), standard_input()?));
+        return Ok((STANDARD_INPUT.to_owned(), standard_input(MEMORY)?));
     }
     let text = std::fs::read_to_string(file).map_err(|error| cannot_read(file, &error))?;
     Ok((file.display().to_string(), text))

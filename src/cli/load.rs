@@ -4,7 +4,7 @@ use super::contacts;
 use super::failure::Failure;
 use clap::Args;
 use kutzbach::format::{
-    Corrections, ReadOptions, Reading, property_names, read_file_with, read_with,
+    Corrections, ReadOptions, Reading, largest_file, property_names, read_file_with, read_with,
 };
 use kutzbach::mobility::Analysis;
 use kutzbach::report::html::Prepared;
@@ -32,6 +32,10 @@ pub struct Source {
     /// Correct which joints the contacts of a STEP file are, by JSON as `kutzbach contacts FILE --json` writes it
     #[arg(long, value_name = "FILE", value_parser = contacts::corrections, help_heading = "Reading the file")]
     pub contacts: Option<Corrections>,
+    /// Fill at most so many gigabytes: a file that would take more is refused, and what would not fit of exact algebra, which takes most,
+    /// stays undecided
+    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = gigabytes, help_heading = "Reading the file")]
+    pub memory: u64,
 }
 
 impl Source {
@@ -82,13 +86,15 @@ impl Source {
             packages: self.packages.clone(),
             without_environment: false,
             contacts: self.contacts.clone().unwrap_or_default(),
+            memory: Some(self.memory),
         }
     }
 
     fn read_with(&self, symbolic: &[String], strict: bool) -> Result<Reading, Failure> {
         let options = self.options(symbolic, strict);
         if self.file == Path::new("-") {
-            return Ok(read_with(&standard_input()?, STANDARD_INPUT, &options)?);
+            let text = standard_input(self.memory)?;
+            return Ok(read_with(&text, STANDARD_INPUT, &options)?);
         }
         Ok(read_file_with(&self.file, &options)?)
     }
@@ -97,11 +103,11 @@ impl Source {
 /// The name of a file that is read from standard input.
 pub const STANDARD_INPUT: &str = "standard input";
 
-/// All of standard input; more than a file may hold is cut off, and refused as too large.
-pub fn standard_input() -> Result<String, Failure> {
-    const MOST: u64 = 1 << 28;
+/// All of standard input; more than the memory (bytes) holds when it is read is cut off, and refused as too large.
+pub fn standard_input(memory: u64) -> Result<String, Failure> {
     let mut text = String::new();
-    let read = std::io::stdin().lock().take(MOST).read_to_string(&mut text);
+    let most = largest_file(memory).saturating_add(1);
+    let read = std::io::stdin().lock().take(most).read_to_string(&mut text);
     read.map_err(|error| Failure::Plain {
         message: format!("{STANDARD_INPUT} cannot be read: {error}"),
         help: None,

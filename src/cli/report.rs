@@ -69,9 +69,6 @@ pub struct Arguments {
     /// them out [default: 0.2]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, help_heading = "Proofs and limits of work")]
     exact: Option<f64>,
-    /// Let exact algebra, which takes most of it, fill at most so many gigabytes; what would not fit stays undecided
-    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = load::gigabytes, help_heading = "Proofs and limits of work")]
-    memory: u64,
     /// Say how link A moves, seen from link B, on every branch; may be repeated
     #[arg(long, num_args = 2, value_names = ["A", "B"], help_heading = "Further questions")]
     between: Vec<String>,
@@ -228,7 +225,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         exact: arguments
             .exact
             .map_or_else(ExactBudget::default, ExactBudget::seconds)
-            .within(arguments.memory),
+            .within(arguments.source.memory),
         timing: arguments.timing,
         evidence: arguments.evidence,
         between: arguments

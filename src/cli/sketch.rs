@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::load::{STANDARD_INPUT, Source, standard_input};
 use kutzbach::constructive::named::NamedSketch;
 use kutzbach::constructive::planar;
-use kutzbach::format::{is_sketch, read_sketch, read_sketch_file, read_with};
+use kutzbach::format::{is_sketch, read_sketch, read_sketch_file, read_with, within_memory};
 use kutzbach::mechanism::Mechanism;
 use std::path::Path;
 
@@ -15,8 +15,12 @@ use std::path::Path;
 /// # Errors
 /// What is wrong with the file, and where; why a mechanism is no sketch; a joint that cannot be held.
 pub fn read(source: &Source, hold: &[String]) -> Result<NamedSketch, Failure> {
+    within_memory(source.memory, || read_within(source, hold))
+}
+
+fn read_within(source: &Source, hold: &[String]) -> Result<NamedSketch, Failure> {
     if source.file == Path::new("-") {
-        let text = standard_input()?;
+        let text = standard_input(source.memory)?;
         if is_sketch(&text) {
             return Ok(read_sketch(&text, STANDARD_INPUT, &source.settings)?);
         }

@@ -11,7 +11,7 @@ use super::output;
 use super::pool::{Event, in_order};
 use super::progress::Progress;
 use clap::{Args, ValueEnum};
-use kutzbach::format::file_bytes;
+use kutzbach::format::{file_bytes, within_memory};
 use kutzbach::mobility::{self, AnalysisOptions};
 use kutzbach::sweep::{
     Family, Form, MeasuredFile, Over, Plan, Sample, Shard, Status, SweepError, Table,
@@ -164,14 +164,14 @@ fn family(arguments: &Arguments, plan: Plan) -> Result<Family, Failure> {
     let options = source.options(&[], false);
     let read = if source.file == Path::new("-") {
         MeasuredFile {
-            bytes: load::standard_input()?.into_bytes(),
+            bytes: load::standard_input(source.memory)?.into_bytes(),
             file: STANDARD_INPUT.to_owned(),
             base: None,
             options,
         }
     } else {
         MeasuredFile {
-            bytes: file_bytes(&source.file)?,
+            bytes: within_memory(source.memory, || file_bytes(&source.file))?,
             file: source.file.display().to_string(),
             base: Some(source.file.clone()),
             options,

@@ -208,9 +208,16 @@ fn in_two_files(name: &str) -> bool {
 /// Whether two directions are parallel or opposed, exactly.
 pub(super) fn are_parallel(Direction(a): &Direction, Direction(b): &Direction) -> bool {
     let minor = |i: usize, j: usize| -> Number { &(&a[i] * &b[j]) - &(&a[j] * &b[i]) };
-    [(0, 1), (1, 2), (2, 0)]
-        .into_iter()
-        .all(|(i, j)| minor(i, j).is_zero())
+    // Values are rounded once, products once more, and their difference: where it is longer than that, exact arithmetic is not asked;
+    // nor are doubles of products that are no normal ones.
+    let differs = |i: usize, j: usize| {
+        let [one, other] = [(i, j), (j, i)].map(|(i, j)| a[i].value() * b[j].value());
+        let size = one.abs() + other.abs();
+        size > f64::MIN_POSITIVE / f64::EPSILON && (one - other).abs() > 8.0 * f64::EPSILON * size
+    };
+    let minors = [(0, 1), (1, 2), (2, 0)];
+    !minors.into_iter().any(|(i, j)| differs(i, j))
+        && minors.into_iter().all(|(i, j)| minor(i, j).is_zero())
 }
 
 #[cfg(test)]

@@ -5,11 +5,14 @@
 //! is wrong there, and it never gets past that point either.
 
 use super::error::{Fault, Outcome};
+use super::memory;
 use super::words::counted;
 use std::ops::Range;
 
-/// Larger files are refused before they are read: 64 MiB, about 100,000 links with shapes.
-pub(super) const MOST_BYTES: usize = 64 << 20;
+/// Larger files are refused before they are read: as many bytes as fit the memory, see [`within_memory`](crate::within_memory).
+pub(super) fn most_bytes() -> u64 {
+    memory::largest_file(memory::limit())
+}
 
 /// A mechanism file nests five levels deep, SDFormat ten; models inside models and foreign elements rarely twenty.
 pub(super) const MOST_LEVELS: usize = 64;
@@ -42,15 +45,17 @@ pub(super) fn text_of(bytes: &[u8]) -> Result<&str, (&str, Fault)> {
 
 /// The fault of a file of this size, if it is too large.
 pub(super) fn size_fault(bytes: u64) -> Option<Fault> {
-    (bytes > MOST_BYTES as u64).then(|| {
+    let most = most_bytes();
+    (bytes > most).then(|| {
+        let limit = memory::limit() as f64 / 1e9;
+        let needed = bytes.saturating_mul(memory::PER_BYTE).div_ceil(1_000_000_000);
         Fault::new(
             0..0,
-            format!(
-                "the file has more than {} MiB, the most that is read",
-                MOST_BYTES >> 20
-            ),
+            format!("the file has more than {most} bytes, the most that is read within {limit} GB of memory"),
         )
-        .help("meshes belong in files of their own")
+        .help(format!(
+            "`--memory {needed}` allows as much as this takes; meshes belong in files of their own"
+        ))
     })
 }
 

@@ -63,6 +63,7 @@ mod kept;
 mod limits;
 mod link;
 mod loop_joint;
+mod memory;
 mod mentions;
 mod mimic;
 mod mjcf;
@@ -91,6 +92,7 @@ pub use error::FormatError;
 #[cfg(feature = "urdf-rs")]
 pub use from_urdf_rs::urdf_text;
 pub use kept::Kept;
+pub use memory::{MEMORY, largest_file, within_memory};
 pub use property_names::property_names;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
 pub use step::{
@@ -284,9 +286,16 @@ pub struct ReadOptions {
     pub without_environment: bool,
     /// What is known of the contacts of a STEP file beyond its shapes.
     pub contacts: Corrections,
+    /// How much memory reading may fill (bytes), as for [`within_memory`]; that of the reading under way where it is not said.
+    pub memory: Option<u64>,
 }
 
 impl ReadOptions {
+    /// Reads within the memory that is allowed.
+    fn within<T>(&self, read: impl FnOnce() -> T) -> T {
+        within_memory(self.memory.unwrap_or_else(memory::limit), read)
+    }
+
     /// A fault where a measure is named and the format has none.
     fn without_measures(&self, format: &str) -> Option<Fault> {
         let set = self.settings.iter().map(|(name, _)| name);
@@ -302,7 +311,7 @@ impl ReadOptions {
 /// As [`read`]; also a symbolic name that the text does not define, with the names that it does; where the reading is to be
 /// strict, what would be skipped.
 pub fn read_with(text: &str, file: &str, options: &ReadOptions) -> Result<Reading, FormatError> {
-    read_text(text, file, None, options)
+    options.within(|| read_text(text, file, None, options))
 }
 
 /// Reads a text, which was read from the file `base` if that is known, after expanding what it says in xacro.
@@ -479,7 +488,7 @@ fn bytes_with<T>(
 /// Reads a file. Otherwise as [`read`].
 ///
 /// # Errors
-/// As [`read_bytes`]; a file that cannot be read, or has more than 64 MiB, is an error at its start.
+/// As [`read_bytes`]; a file that cannot be read, or is too large for the memory ([`within_memory`]), is an error at its start.
 pub fn read_file(
     path: impl AsRef<Path>,
     settings: &[(String, String)],
@@ -500,14 +509,14 @@ pub fn read_file_with(
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
     let path = path.as_ref();
-    let bytes = file_bytes(path)?;
+    let bytes = options.within(|| file_bytes(path))?;
     read_bytes_of(&bytes, &path.display().to_string(), Some(path), options)
 }
 
 /// The bytes of a file, to be read several times with [`read_bytes_of`].
 ///
 /// # Errors
-/// A file that cannot be read, or has more than 64 MiB.
+/// A file that cannot be read, or is too large for the memory ([`within_memory`]).
 pub fn file_bytes(path: impl AsRef<Path>) -> Result<Vec<u8>, FormatError> {
     let path = path.as_ref();
     let file = path.display().to_string();
@@ -519,6 +528,15 @@ pub fn file_bytes(path: impl AsRef<Path>) -> Result<Vec<u8>, FormatError> {
 /// # Errors
 /// As [`read_bytes`] and [`read_with`].
 pub fn read_bytes_of(
+    bytes: &[u8],
+    file: &str,
+    base: Option<&Path>,
+    options: &ReadOptions,
+) -> Result<Reading, FormatError> {
+    options.within(|| read_bytes_within(bytes, file, base, options))
+}
+
+fn read_bytes_within(
     bytes: &[u8],
     file: &str,
     base: Option<&Path>,
@@ -549,7 +567,7 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {
     }
     let mut bytes = Vec::new();
     opened
-        .take(guard::MOST_BYTES as u64 + 1)
+        .take(guard::most_bytes().saturating_add(1))
         .read_to_end(&mut bytes)
         .map_err(failed)?;
     match guard::size_fault(bytes.len() as u64) {

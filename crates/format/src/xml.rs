@@ -6,8 +6,9 @@ use super::words::quoted;
 use roxmltree::{Document, Error, ParsingOptions, TextPos};
 use std::ops::Range;
 
-/// Bounds the memory of a parsed text; a mechanism of 100,000 links has about two million nodes.
-const MOST_NODES: u32 = 4_000_000;
+/// Bytes of text for a node, which bounds the memory of a parsed text: elements that a mechanism has take some forty with the blanks
+/// between them, so that whatever may be read has fewer nodes.
+const BYTES_PER_NODE: u64 = 16;
 
 /// The name of the root element, before anything is parsed; empty where the text does not start like XML.
 pub(super) fn root_name(text: &str) -> &str {
@@ -43,7 +44,7 @@ pub(super) fn parse(text: &str) -> Outcome<Document<'_>> {
     let unclosed = guard::check_structure(text)?;
     let options = ParsingOptions {
         allow_dtd: false,
-        nodes_limit: MOST_NODES,
+        nodes_limit: u32::try_from(guard::most_bytes() / BYTES_PER_NODE).unwrap_or(u32::MAX),
         ..ParsingOptions::default()
     };
     Document::parse_with_options(text, options).map_err(|error| fault(text, &error, unclosed))
@@ -115,7 +116,11 @@ fn fault(text: &str, error: &Error, unclosed: Option<Range<usize>>) -> Fault {
         .help("remove what stands before it"),
         Error::NodesLimitReached
         | Error::AttributesLimitReached
-        | Error::NamespacesLimitReached => Fault::new(0..0, "the file has too many elements"),
+        | Error::NamespacesLimitReached => Fault::new(
+            0..0,
+            "the file has more elements than fit the memory for reading it",
+        )
+        .help("`--memory` allows more"),
         Error::DtdDetected => Fault::new(position, "a document type definition is not accepted"),
         Error::InvalidComment(_) => Fault::new(position, "found `--` inside a comment")
             .help("a comment ends at the first --, and that must be -->"),

@@ -19,6 +19,7 @@ mod local;
 mod peeling;
 mod reduction;
 mod s_tree;
+mod separation;
 
 pub use decomposition::{Decomposition, Part, SetDecomposition, decompose};
 pub use reduction::{Merge, Reduction, reduce};

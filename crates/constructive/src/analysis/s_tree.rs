@@ -6,13 +6,14 @@
 //! where all leaves are triangles.
 //!
 //! # What it costs
-//! Vertices of two edges are split off in constant time each. A graph without any costs one search for a separating pair, V·E at
-//! worst, for every split: a virtual edge on one side is none on the other, so that triconnected components have to be found
-//! anew there.
+//! Vertices of two edges are split off in constant time each. Every other split, and every leaf that has no pair, costs one search for a
+//! separating pair, linear in its edges: a virtual edge on one side is none on the other, so that triconnected components have to be
+//! found anew there.
 
 use super::blocks::blocks_without;
 use super::local::Local;
 use super::peeling::Peeling;
+use super::separation::separating_pair;
 use crate::graph::{Graph, deficit};
 use std::collections::BTreeSet;
 
@@ -166,7 +167,8 @@ impl State {
         if !blocks_without(&local, usize::MAX).is_one(local.len()) {
             return self.leaf(piece, LeafKind::Loose);
         }
-        match self.separating_pair(&local) {
+        self.steps += local.len() as u64;
+        match separating_pair(&local) {
             Some(pair) => self.split(piece, &local, pair),
             None => self.leaf(piece, LeafKind::Triconnected),
         }
@@ -217,16 +219,6 @@ impl State {
             .edges
             .retain(|(ends, _)| ends.iter().all(|&v| left(v)));
         piece.vertices.retain(|&v| left(v));
-    }
-
-    /// The first pair without which the graph is in several pieces.
-    fn separating_pair(&mut self, local: &Local) -> Option<[usize; 2]> {
-        (0..local.len()).find_map(|a| {
-            self.steps += local.len() as u64;
-            let found = blocks_without(local, a);
-            let b = found.cut.iter().position(|&cut| cut)?;
-            Some([a, b])
-        })
     }
 
     /// The component with the first vertex against all others; edges between the two of the pair go with the others.

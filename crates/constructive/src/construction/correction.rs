@@ -29,7 +29,7 @@ const DAMPING: f64 = 1e-6;
 /// A first solution of the seminormal equations, and corrections of it.
 const SOLVES: usize = 4;
 
-/// Newton's method doubles the digits of a drawing with six to all in two steps; where it takes many more, it does not lead there.
+/// From six digits two steps lead to all; where many more are needed, they do not lead there.
 const MOST_STEPS: usize = 12;
 
 /// Multiplications of one elimination, a second or two: more are not begun.

@@ -38,7 +38,7 @@ pub(crate) fn document(bytes: &[u8]) -> Outcome<Option<String>> {
     };
     let mut unpacked = Vec::new();
     // What a file says of its size is not believed.
-    file.take(crate::guard::MOST_BYTES as u64 + 1)
+    file.take(crate::guard::most_bytes().saturating_add(1))
         .read_to_end(&mut unpacked)
         .map_err(|error| broken(error.to_string()))?;
     if let Some(fault) = crate::guard::size_fault(unpacked.len() as u64) {

@@ -11,8 +11,6 @@ const MOST_STEPS: u64 = 1_000_000;
 /// Elements, macros, expressions and lists inside each other: more than Python's own limit of 1000 calls lets xacro do. Names
 /// are looked for level by level, so that depth costs time as well.
 const DEEPEST: usize = 600;
-/// Bytes of the expanded text, as of any file.
-pub(super) const MOST_BYTES: usize = crate::guard::MOST_BYTES;
 
 #[derive(Debug, Default)]
 pub(super) struct Budget {

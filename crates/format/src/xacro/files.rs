@@ -51,7 +51,7 @@ impl Files {
     /// Parses a file and adds it.
     pub(super) fn add(&mut self, file: File) -> Outcome<u32> {
         self.bytes = self.bytes.saturating_add(file.text.len());
-        if self.all.len() >= MOST_FILES || self.bytes > guard::MOST_BYTES {
+        if self.all.len() >= MOST_FILES || self.bytes as u64 > guard::most_bytes() {
             return Err(Trouble::new(
                 "the file includes too many or too large files",
             ));

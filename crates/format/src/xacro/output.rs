@@ -3,13 +3,12 @@
 //! In attributes that the reader takes for numbers, a number that was computed is written as `${__n7}`, a name for the exact
 //! number; every other attribute is written as xacro writes it.
 
-use super::budget::MOST_BYTES;
 use super::element::{Attribute, Element, Node};
 use super::map::{Map, Span};
 use super::text::Text;
 use super::value::Value;
 use super::{Outcome, Place, Run, Trouble};
-use crate::{Reading, Warning};
+use crate::{Reading, Warning, guard};
 use kutzbach_math::number::Number;
 use std::ops::Range;
 use std::rc::Rc;
@@ -156,11 +155,12 @@ impl Writer {
         prefixes: &[(String, String)],
         depth: usize,
     ) -> Outcome<()> {
-        if self.text.len() > MOST_BYTES {
-            return Err(Trouble::new(format!(
-                "the expanded file has more than {} MiB",
-                MOST_BYTES >> 20
-            ))
+        if let Some(fault) = guard::size_fault(self.text.len() as u64) {
+            let trouble = Trouble::new(format!("expanded, {}", fault.message));
+            return Err(match fault.help {
+                Some(help) => trouble.help(help),
+                None => trouble,
+            }
             .at(element.place, element.call));
         }
         self.push(&"  ".repeat(depth.min(20)));

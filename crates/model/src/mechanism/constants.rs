@@ -33,6 +33,9 @@ use std::f64::consts::PI;
 /// Probability that is allowed of taking a number for a constant by chance.
 const CHANCE: f64 = 2e-4;
 
+/// A unit of so many places further on is the first that is no more than [`CHANCE`] of a unit, twice: 10⁻⁴ ≤ ½ [`CHANCE`].
+const PLACES_OF_CHANCE: i32 = 4;
+
 /// The fewest decimals that tell a multiple of π/4 from chance: 10⁻⁴ ≤ [`CHANCE`] π/4.
 const OF_ANGLES: i32 = 4;
 
@@ -181,10 +184,14 @@ impl<'a> Reach<'a> {
         if !self.computed {
             return None;
         }
-        let places = 0..self.decimals.min(DIGITS_OF_DOUBLES as i32);
+        // Number and candidate differ by a multiple of the number's last place, or not at all: candidates with nearly as many decimals
+        // are too near each other for any such difference to tell.
+        let most = self.decimals.saturating_sub(PLACES_OF_CHANCE);
+        let places = 0..most.saturating_add(1).min(DIGITS_OF_DOUBLES as i32);
         places.into_iter().find_map(|places| {
             let scale = 10f64.powi(places);
-            if self.misses((self.value * scale).round() / scale, self.noise) {
+            let near = self.noise.min(0.5 * CHANCE / scale);
+            if self.misses((self.value * scale).round() / scale, near) {
                 return None;
             }
             let decimal = Number::decimal(&format!("{:.*}", places as usize, self.value)).ok()?;
