@@ -16,7 +16,7 @@ use crate::options::{AnalysisError, AnalysisOptions};
 use crate::roles::JointRole;
 use crate::vocabulary::Verdict;
 use kutzbach_closure::{
-    Arithmetic, CycleJacobian, Geometry, Metric, Part, linearised, rounding_of,
+    Arithmetic, CycleJacobian, Geometry, Metric, Part, Section, linearised, rounding_of,
 };
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use kutzbach_math::number::Number;
@@ -149,7 +149,8 @@ pub(super) fn noisy_parts(
         }
         let finding = stated.findings.get(index);
         let open = finding.is_none_or(|finding| finding.open().is_some());
-        if !open && finding.is_some_and(|finding| finding.upper() > 0) {
+        let moves = !open && finding.is_some_and(|finding| finding.upper() > 0);
+        if moves && !stands_elsewhere(mechanism, &geometry, stated, part)? {
             continue;
         }
         match of_part(mechanism, &geometry, stated, (index, part))? {
@@ -161,6 +162,31 @@ pub(super) fn noisy_parts(
         }
     }
     Ok(parts)
+}
+
+/// Whether a part was closed at a pose away from the drawn one, which misses by noise: nearer to it no pose closes the numbers as written.
+/// A misfit of noise moves joints by as much, and at a singular pose by its root.
+fn stands_elsewhere(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    stated: &Analysis,
+    part: &Part,
+) -> Result<bool, MatrixError> {
+    if stated.assembly.starts <= 1 {
+        return Ok(false);
+    }
+    let drawn = linearised(geometry, &geometry.states, part)?;
+    let mut matrix = drawn.matrix.clone();
+    let scales = matrix.scale_columns();
+    let section = Section {
+        mechanism,
+        geometry,
+        part,
+        metric: &Metric::of(mechanism, &drawn, &scales),
+    };
+    let way = section.way_between(&geometry.states, &stated.assembly.states);
+    let farthest = way.iter().fold(0.0f64, |most, way| way.abs().max(most));
+    Ok(misfit(&drawn) <= NOISE && farthest > NOISE.sqrt())
 }
 
 /// Whether a part of a mechanism that does not assemble closes with its numbers as they are, and these stand for no others by their
@@ -207,10 +233,14 @@ fn of_part(
 ) -> Result<Option<PartMeant>, MatrixError> {
     let unassembled = stated.mobility.verdict == Verdict::Unassembled;
     // What does not close was sought everywhere: as it is drawn it may miss by no more than noise.
-    let drawn = linearised(geometry, &geometry.states, part)?;
-    let (states, here) = match unassembled && misfit(&drawn) <= NOISE {
-        true => (&geometry.states, drawn),
-        false => {
+    let elsewhere = unassembled || stands_elsewhere(mechanism, geometry, stated, part)?;
+    let drawn = match elsewhere {
+        true => Some(linearised(geometry, &geometry.states, part)?),
+        false => None,
+    };
+    let (states, here) = match drawn.filter(|drawn| misfit(drawn) <= NOISE) {
+        Some(drawn) => (&geometry.states, drawn),
+        None => {
             let states = &stated.assembly.states;
             (states, linearised(geometry, states, part)?)
         }
