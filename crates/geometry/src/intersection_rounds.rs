@@ -79,10 +79,8 @@ fn with_circle<S: Scalar>(
                     parts.extend(found.parts().iter().cloned());
                 }
             }
-            Found::Point(point) => {
-                if on_round(point, &own).is_some_and(|on| decider.counts(on)) {
-                    parts.push(Found::Point(point.clone()));
-                }
+            Found::Point(point) if on_round(point, &own).is_some_and(|on| decider.counts(on)) => {
+                parts.push(Found::Point(point.clone()));
             }
             _ => {}
         }

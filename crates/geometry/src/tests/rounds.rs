@@ -3,6 +3,9 @@
 use super::{EXACT, TOLERANT, Three, With};
 use crate::{Entity, Scalar, distance, intersection, projection};
 
+/// Two entities and what they have in common.
+type Meeting<S> = (Entity<S>, Entity<S>, Vec<Entity<S>>);
+
 impl<S: Scalar> With<S> {
     /// A cylinder along z.
     fn pin(&self, at: Three, radius: i32) -> Entity<S> {
@@ -19,7 +22,7 @@ impl<S: Scalar> With<S> {
         self.cone([0, 0, height], [0, 0, up], 1)
     }
 
-    fn meet(&self, rows: &[(Entity<S>, Entity<S>, Vec<Entity<S>>)]) {
+    fn meet(&self, rows: &[Meeting<S>]) {
         for (row, (a, b, expected)) in rows.iter().enumerate() {
             for (first, second) in [(a, b), (b, a)] {
                 let found = intersection(first, second);
