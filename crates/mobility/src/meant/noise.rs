@@ -1,8 +1,8 @@
 //! The mechanism meant by numbers that a program printed, up to the noise of its arithmetic.
 //!
 //! A geometry kernel, an optimiser or single precision leave errors far above the last digit that is printed of them. Nobody builds to a
-//! millionth of a link: a misfit below that, which stands alone, is met by the nearest mechanism without it, and what the numbers are as
-//! written is said beside. Numbers typed by a person are taken at their word.
+//! millionth of a link: a misfit of numbers that are off by less, which stands alone, is met by the nearest mechanism without it, and what
+//! the numbers are as written is said beside. Numbers typed by a person are taken at their word.
 
 use super::dimensions::Dimensions;
 use super::nearest::{Nearest, Search};
@@ -16,13 +16,13 @@ use crate::options::{AnalysisError, AnalysisOptions};
 use crate::roles::JointRole;
 use crate::vocabulary::Verdict;
 use kutzbach_closure::{
-    Arithmetic, CycleJacobian, Geometry, Metric, Part, Section, linearised, rounding_of,
+    Arithmetic, CycleJacobian, Geometry, JointState, Metric, Part, Section, linearised, rounding_of,
 };
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism};
 
-/// Noise is less than this share of the loop's size (rad).
+/// Noise of a number is less than this share of the loop's size (rad).
 const NOISE: f64 = 1e-6;
 
 /// Numbers count in units of this share, so that those of the mechanism meant are a few units from those written.
@@ -54,6 +54,18 @@ fn is_printed(mechanism: &Mechanism, part: &Part) -> bool {
         }
     }
     long >= LEAST_PRINTED && 2 * long > all
+}
+
+/// What the noise of a part's numbers comes to in the equations of its loops, if each number is off by itself: errors of so many add up like
+/// their squares (rad, or lengths of how far the loops reach).
+fn of_all_numbers(mechanism: &Mechanism, part: &Part) -> f64 {
+    let uncertain = |number: &&Number| number.stated().is_some() || !number.inputs().is_empty();
+    let count = |joint: &usize| {
+        let numbers = mechanism.joints()[*joint].numbers().into_iter().flatten();
+        numbers.filter(uncertain).count()
+    };
+    let count: usize = part.joints.iter().map(count).sum();
+    NOISE * (count.max(1) as f64).sqrt()
 }
 
 /// Completes the analysis of numbers that a program printed: where they bind or stay open by noise only, that of the mechanism meant.
@@ -186,7 +198,8 @@ fn stands_elsewhere(
     };
     let way = section.way_between(&geometry.states, &stated.assembly.states);
     let farthest = way.iter().fold(0.0f64, |most, way| way.abs().max(most));
-    Ok(misfit(&drawn) <= NOISE && farthest > NOISE.sqrt())
+    let noise = of_all_numbers(mechanism, part);
+    Ok(misfit(&drawn) <= noise && farthest > noise.sqrt())
 }
 
 /// Whether a part of a mechanism that does not assemble closes with its numbers as they are, and these stand for no others by their
@@ -224,6 +237,38 @@ fn misfit(here: &CycleJacobian<f64>) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// The rank without the singular values that noise leaves of zeros, where these stand alone: what the noise of all numbers may leave, or of
+/// a single one, where the next value is not far above the former.
+fn rank_but_for_noise(values: &[f64], misfit: f64, noise: f64) -> Option<usize> {
+    let alone = |cut: f64| {
+        let rank = values.iter().filter(|value| **value > cut).count();
+        let next = values.get(rank).copied().unwrap_or(0.0).max(misfit);
+        let least = rank.checked_sub(1).map_or(1.0, |last| values[last]);
+        (least >= ALONE * next).then_some(rank)
+    };
+    alone(noise).or_else(|| alone(NOISE))
+}
+
+/// The pose at which a part is meant to stand. What does not close was sought everywhere: as it is drawn it may miss by no more than noise.
+fn where_meant<'a>(
+    mechanism: &Mechanism,
+    geometry: &'a Geometry<f64>,
+    stated: &'a Analysis,
+    part: &Part,
+) -> Result<&'a [JointState<f64>], MatrixError> {
+    let drawn = match stated.mobility.verdict {
+        Verdict::Unassembled => {
+            let drawn = linearised(geometry, &geometry.states, part)?;
+            misfit(&drawn) <= of_all_numbers(mechanism, part)
+        }
+        _ => stands_elsewhere(mechanism, geometry, stated, part)?,
+    };
+    Ok(match drawn {
+        true => geometry.states.as_slice(),
+        false => stated.assembly.states.as_slice(),
+    })
+}
+
 /// The nearest mechanism of one part, where it is within noise.
 fn of_part(
     mechanism: &Mechanism,
@@ -231,34 +276,26 @@ fn of_part(
     stated: &Analysis,
     (index, part): (usize, &Part),
 ) -> Result<Option<PartMeant>, MatrixError> {
+    if !is_printed(mechanism, part) {
+        return Ok(None);
+    }
     let unassembled = stated.mobility.verdict == Verdict::Unassembled;
-    // What does not close was sought everywhere: as it is drawn it may miss by no more than noise.
-    let elsewhere = unassembled || stands_elsewhere(mechanism, geometry, stated, part)?;
-    let drawn = match elsewhere {
-        true => Some(linearised(geometry, &geometry.states, part)?),
-        false => None,
-    };
-    let (states, here) = match drawn.filter(|drawn| misfit(drawn) <= NOISE) {
-        Some(drawn) => (&geometry.states, drawn),
-        None => {
-            let states = &stated.assembly.states;
-            (states, linearised(geometry, states, part)?)
-        }
-    };
+    let noise = of_all_numbers(mechanism, part);
+    let states = where_meant(mechanism, geometry, stated, part)?;
+    let here = linearised(geometry, states, part)?;
     let mut matrix = here.matrix.clone();
     let scales = matrix.scale_columns();
-    if matrix.columns() > DENSE_COLUMNS || !is_printed(mechanism, part) {
+    if matrix.columns() > DENSE_COLUMNS {
         return Ok(None);
     }
     let misfit = misfit(&here);
     let values = relative_singular_values(&matrix)?.unwrap_or_default();
-    let rank = values.iter().filter(|value| **value > NOISE).count();
-    let next = values.get(rank).copied().unwrap_or(0.0).max(misfit);
-    let least = rank.checked_sub(1).map_or(1.0, |last| values[last]);
-    if misfit > NOISE || least < ALONE * next {
+    let rank = rank_but_for_noise(&values, misfit, noise).filter(|_| misfit <= noise);
+    let Some(rank) = rank else {
         return Ok(None);
-    }
-    let dimensions = Dimensions::known_to(mechanism, part, UNIT * here.length);
+    };
+    let (length, unit) = (here.length, UNIT * here.length);
+    let dimensions = Dimensions::known_to(mechanism, part, unit).alike(unit, length);
     if !(1..=MOST_DIMENSIONS).contains(&dimensions.all.len()) {
         return Ok(None);
     }

@@ -162,3 +162,29 @@ fn what_was_rounded_in_inches_is_what_was_drawn() {
     let found = analyse(&found, &AnalysisOptions::default()).unwrap();
     assert_ne!(found.mobility.finite(), Some(1));
 }
+
+/// Sarrus' linkage of some size, its numbers off by up to so much of it (m), and as much in directions.
+fn noisy_sarrus(size: f64, noise: f64) -> Mechanism {
+    let mut random = kutzbach_math::matrix::SplitMix64::new(5);
+    let mut off = |x: f64| x + noise * random.symmetric();
+    let mut places = turned_sarrus();
+    for (_, point, along) in &mut places {
+        *point = point.map(|x| size * off(x));
+        *along = along.map(&mut off);
+    }
+    // Fifteen digits or so, whatever the size.
+    let decimals = if size < 1.0 { 17 } else { 14 };
+    ring(&places, [0.0; 3], Written::Decimals(decimals))
+}
+
+#[test]
+fn noise_is_noise_whatever_the_size() {
+    // The last as drawn misses by more than any single number is off.
+    for (size, noise) in [(1e-3, 1e-8), (1e2, 1e-7), (1.0, 1e-7), (1.0, 5e-7)] {
+        let found = noisy_sarrus(size, noise);
+        let found = analyse(&found, &AnalysisOptions::default()).unwrap();
+        assert_eq!(found.mobility.finite(), Some(1), "{noise:e} of {size}");
+    }
+    let far = analyse(&noisy_sarrus(1.0, 1e-3), &AnalysisOptions::default()).unwrap();
+    assert_ne!(far.mobility.finite(), Some(1));
+}
