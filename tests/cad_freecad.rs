@@ -1,6 +1,7 @@
 //! Assemblies of FreeCAD as it saves them: documents, and what is no file of a CAD program that is read.
 
 use kutzbach::format::{WarningKind, read};
+use kutzbach::mechanism::{JointId, Mechanism};
 use kutzbach::mobility::{AnalysisOptions, analyse};
 use std::fmt::Write as _;
 
@@ -205,6 +206,24 @@ fn what_cannot_be_read_is_named_with_what_to_do_instead() {
         error.message.starts_with("the zip file cannot be unpacked"),
         "{error}"
     );
+}
+
+/// FreeCAD prints sixteen decimals. Lengths in whole millimetres were taken for rounded to the millimetre.
+#[test]
+fn whole_millimetres_are_exact() {
+    let reading = |length: &str| {
+        let text = crank_slider("").replace("PointLike", "Slider");
+        let text = text.replace("Px=\"60\"", &format!("Px=\"{length}\""));
+        read(&text, "Document.xml", &[]).unwrap()
+    };
+    let is_exact = |mechanism: &Mechanism| {
+        let mut joints = (0..mechanism.joints().len()).map(JointId);
+        joints.all(|joint| mechanism.precision_of(joint).is_exact())
+    };
+    for length in ["60", "60.", "60.0000000000000000", "-60.0"] {
+        assert!(is_exact(&reading(length).mechanism), "{length}");
+    }
+    assert!(!is_exact(&reading("60.1234").mechanism));
 }
 
 #[test]

@@ -82,6 +82,7 @@ fn the_guide_prints_its_files_in_full() {
         "loader.urdf",
         "loader.urdf.xacro",
         "loader_mjcf.xml",
+        "loader_gazebo.sdf",
         "expected.json",
     ] {
         let text = fs::read_to_string(folder("examples/first_robot").join(name)).unwrap();

@@ -413,11 +413,8 @@ mod tests {
                 let expected = 2.0 * parts[2].value().atan2(parts[3].value());
                 assert!((yaw.value() - expected).abs() < 2e-15, "{z} {w}");
                 let decimals = i32::try_from(z.len() - 2).unwrap();
-                let known = yaw
-                    .inputs()
-                    .iter()
-                    .map(|own| own.literal.stated().unwrap().decimals);
-                assert!(!yaw.inputs().is_empty() && known.into_iter().all(|d| d == decimals));
+                let mut known = yaw.inputs().iter().map(|own| own.literal.stated().unwrap());
+                assert!(!yaw.inputs().is_empty() && known.all(|own| own.decimals == decimals));
             }
         }
         let zero = ["0", "0", "0", "0"].map(|word| Number::decimal(word).unwrap());

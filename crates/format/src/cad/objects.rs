@@ -131,9 +131,15 @@ impl<'a> Object<'a> {
     }
 }
 
-/// A length in metres whose digits are those that are written.
+/// A length in metres whose digits are those that are written. Whole millimetres were chosen, whatever zeros are printed behind them: they are exact.
 fn millimetres(attribute: Attribute<'_>) -> Outcome<Number> {
     let text = attribute.value.trim();
+    let padded = text.split_once('.');
+    let padded = padded.filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));
+    let whole = padded.map_or(text, |(whole, _)| whole).parse::<i64>().ok();
+    if let Some(metres) = whole.and_then(|count| Number::ratio(count, 1000)) {
+        return Ok(metres);
+    }
     let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let exponent = exponent.parse::<i32>().ok();
     let metres = match exponent.and_then(|exponent| exponent.checked_sub(3)) {
