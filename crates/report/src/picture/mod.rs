@@ -8,8 +8,8 @@
 //! # What holds
 //! * Every picture comes as a *fragment*: an `svg` element without style of its own, for a page that has the `STYLE` of its
 //!   module in its own style sheet. Plots and sketches come as a document too, which carries its style.
-//! * Colours are custom properties with values for light and for dark screens; beside each stands a fixed colour for
-//!   viewers that know no custom properties.
+//! * On screens, colours are custom properties with values for light and for dark ones. Otherwise they are fixed: viewers that know no
+//!   custom properties, such as Typst and resvg, draw black where a rule has one, even after a fixed colour, and pass media over.
 //! * Nothing in a fragment is an inline style, refers to an `id` or runs: pages with a strict content security policy can
 //!   hold any number of them.
 //! * Names come from files. They are written as text only, escaped, with control characters made visible; numbers that are
@@ -46,3 +46,30 @@ pub mod traced;
 mod vector;
 #[cfg(feature = "html")]
 pub mod view;
+
+#[cfg(all(test, feature = "html"))]
+mod tests {
+    use super::{pictogram, plot, sketch, solids};
+    use kutzbach_model::graph::SVG_STYLE;
+
+    #[test]
+    fn custom_properties_are_asked_for_on_screens_only() {
+        let all = [
+            plot::STYLE,
+            sketch::STYLE,
+            solids::STYLE,
+            pictogram::STYLE,
+            crate::map::STYLE,
+            SVG_STYLE,
+        ];
+        for style in all {
+            for (place, _) in style.match_indices("var(--") {
+                let (before, from) = style.split_at(place);
+                let depth = before.matches('{').count() - before.matches('}').count();
+                // In a rule, in a query of the medium.
+                let shown: String = from.chars().take(30).collect();
+                assert_eq!(depth, 2, "{shown}");
+            }
+        }
+    }
+}

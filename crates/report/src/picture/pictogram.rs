@@ -7,13 +7,15 @@ use kutzbach_mobility::{MobilityClass, SingularKind, Verdict};
 pub const STYLE: &str = "svg.pictogram{--sign-ink:#223;--sign-part:#1f5fa8;--sign-other:#c4501b;--sign-ground:#7a8591}\
 @media screen and (prefers-color-scheme:dark){svg.pictogram{--sign-ink:#dde3ea;--sign-part:#6cb2ff;--sign-other:#ff9d6b;--sign-ground:#97a3af}}\
 svg.pictogram .a,svg.pictogram .b,svg.pictogram .g{fill:none;stroke-width:3;stroke-linecap:round;stroke-linejoin:round}\
-svg.pictogram .a{stroke:#1f5fa8;stroke:var(--sign-part)}\
-svg.pictogram .b{stroke:#c4501b;stroke:var(--sign-other)}\
-svg.pictogram .g{stroke:#7a8591;stroke:var(--sign-ground)}\
+svg.pictogram .a{stroke:#1f5fa8}\
+svg.pictogram .b{stroke:#c4501b}\
+svg.pictogram .g{stroke:#7a8591}\
 svg.pictogram .thin{stroke-width:1.6}svg.pictogram .dots{stroke-dasharray:.1 4.5}\
-svg.pictogram .veil{stroke:none;fill:#1f5fa8;fill:var(--sign-part);opacity:.18}\
-svg.pictogram .j{fill:#fff;stroke:#223;stroke:var(--sign-ink);stroke-width:1.8}\
-svg.pictogram .k{fill:#c4501b;fill:var(--sign-other)}\
+svg.pictogram .veil{stroke:none;fill:#1f5fa8;opacity:.18}\
+svg.pictogram .j{fill:#fff;stroke:#223;stroke-width:1.8}\
+svg.pictogram .k{fill:#c4501b}\
+@media screen{svg.pictogram .a{stroke:var(--sign-part)}svg.pictogram .b{stroke:var(--sign-other)}svg.pictogram .g{stroke:var(--sign-ground)}\
+svg.pictogram .veil{fill:var(--sign-part)}svg.pictogram .j{stroke:var(--sign-ink)}svg.pictogram .k{fill:var(--sign-other)}}\
 @media screen and (prefers-color-scheme:dark){svg.pictogram .j{fill:#161b22}}";
 
 /// How a mechanism is built, as far as its sign shows it.

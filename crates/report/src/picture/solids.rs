@@ -14,12 +14,13 @@ use super::vector::{Vector, cross, dot, sum, times, unit};
 
 /// The style of these pictures, all of it below `svg.solids`.
 pub const STYLE: &str = "svg.solids{font:14px system-ui,sans-serif;background:#fff;--ink:#1c2530;--face:#e6eaef;--line:#6a7683}\
-svg.solids text{fill:#1c2530;fill:var(--ink);text-anchor:middle}svg.solids .head{text-anchor:start;font-weight:600}\
-svg.solids path{fill:#e6eaef;fill:var(--face);stroke:#6a7683;stroke:var(--line);stroke-linejoin:round;fill-rule:evenodd}\
+svg.solids text{fill:#1c2530;text-anchor:middle}svg.solids .head{text-anchor:start;font-weight:600}\
+svg.solids path{fill:#e6eaef;stroke:#6a7683;stroke-linejoin:round;fill-rule:evenodd}\
 svg.solids .edge{fill:none;stroke-width:4}svg.solids .behind{fill:none;stroke-dasharray:4 3}\
 svg.solids .m0{fill:#9cc9ff;stroke:#1f6fc0}svg.solids .m1{fill:#ffc2a3;stroke:#b4501c}svg.solids .m2{fill:#9fe0c4;stroke:#14805a}\
 svg.solids .m3{fill:#e6bfe9;stroke:#8a3f92}svg.solids .m4{fill:#eed98a;stroke:#8a6d0c}svg.solids .m5{fill:#ffb0bf;stroke:#b32a48}\
 svg.solids .edge.edge,svg.solids .behind.behind{fill:none}\
+@media screen{svg.solids text{fill:var(--ink)}svg.solids path{fill:var(--face);stroke:var(--line)}}\
 @media screen and (prefers-color-scheme:dark){svg.solids{background:#161b22;--ink:#dde3ea;--face:#2a323b;--line:#8d99a6}\
 svg.solids .m0,svg.solids .m1,svg.solids .m2,svg.solids .m3,svg.solids .m4,svg.solids .m5{fill-opacity:.55}}";
 
