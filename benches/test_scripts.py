@@ -15,6 +15,7 @@ import compare
 import digits
 import instructions
 import stages
+import waits
 
 PRINTED = """
 Timer precision: 41 ns
@@ -125,6 +126,32 @@ class Compare(unittest.TestCase):
                 continue
             self.assertTrue(rows, path.name)
             self.assertEqual((gone, added, {row[3] for row in rows}), ([], [], {1.0}), path.name)
+
+
+class Waits(unittest.TestCase):
+    def test_every_case_is_there(self):
+        for file in (*waits.EXACT.values(), *waits.VERDICTS.values()):
+            self.assertTrue((waits.ROOT / file).is_file(), file)
+
+    def test_what_ends_by_itself_and_what_is_stopped_are_told_apart(self):
+        seconds, answer, stopped = waits.once([sys.executable, "-c", "print('basis'); print('dimension 1'); print()"], 60)
+        self.assertEqual((answer, stopped), ("dimension 1", False))
+        self.assertGreater(seconds, 0)
+        _, _, stopped = waits.once([sys.executable, "-c", "while True: pass"], 1)
+        self.assertTrue(stopped)
+        row = waits.summary([(0.5, "a", False), (0.25, "a", False), (1.0, "a", True)])
+        self.assertEqual((row["median"], row["least"], row["greatest"], row["stopped"]), (0.5, 0.25, 1.0, True))
+
+    def test_of_a_report_the_verdict_is_kept(self):
+        report = json.dumps({"mobility": {"verdict": "mobile", "bounds": [1, 1]}})
+        self.assertEqual(waits.answer_of([report], report), "mobile, 1 to 1")
+        self.assertEqual(waits.answer_of(["two", "lines"], "lines"), "lines")
+
+    def test_programs_have_names_of_their_own(self):
+        self.assertEqual(waits.named(["before=/a", "now=/b"]), {"before": "/a", "now": "/b"})
+        self.assertEqual(waits.named(["/a"]), {"kutzbach": "/a"})
+        with self.assertRaises(SystemExit):
+            waits.named(["/a", "/b"])
 
 
 class Instructions(unittest.TestCase):

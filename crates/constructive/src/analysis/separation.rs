@@ -95,7 +95,7 @@ impl First {
             size: vec![1; n],
         };
         first.enter(0);
-        let mut path = vec![(0, 0)];
+        let mut path: Vec<(usize, usize)> = vec![(0, 0)];
         while let Some(top) = path.last_mut() {
             let (v, looked) = *top;
             let Some(&w) = near[v].get(looked) else {
@@ -174,7 +174,7 @@ impl Palm {
         let mut arcs = vec![Vec::new(); n];
         let mut high = vec![0; n];
         let (mut last, mut starts) = (n, true);
-        let mut path = vec![(0, 0)];
+        let mut path: Vec<(usize, usize)> = vec![(0, 0)];
         while let Some(top) = path.last_mut() {
             let (v, looked) = *top;
             let Some(&(w, tree)) = out[v].get(looked) else {
@@ -227,7 +227,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn pair(&mut self) -> Option<[usize; 2]> {
-        let mut path = vec![(0, 0)];
+        let mut path: Vec<(usize, usize)> = vec![(0, 0)];
         while let Some(top) = path.last_mut() {
             let (v, looked) = *top;
             if let Some(&arc) = self.palm.arcs[v].get(looked) {
@@ -259,7 +259,7 @@ impl Search<'_> {
             ),
             false => (arc.to, v),
         };
-        let mut merged = None;
+        let mut merged: Option<(usize, usize)> = None;
         while let Some(&Some(triple)) = self.triples.last() {
             if triple.a <= a {
                 break;
