@@ -125,8 +125,8 @@ pub(super) fn meant_beside(
     });
     let other = |joint: usize| {
         let parts = &stated.structure.parts;
-        let of_part = |part: &&PartMeant| parts[part.index].joints.contains(&joint);
-        !all.iter().any(of_part)
+        let has = |part: &&PartMeant| parts[part.index].joints.contains(&joint);
+        !all.iter().any(has)
     };
     let by_digits = stated.meant.as_ref();
     let by_digits = by_digits.is_some_and(|own| own.changes.iter().any(|c| other(c.joint)));
