@@ -104,12 +104,12 @@ pub(super) fn but_for_noise(
 }
 
 /// Why a part stays open that binds by noise only.
-const NOT_FOLLOWED: &str = "as written it binds by no more than the noise of numbers that a program printed, and what those meant do beside \
-                            the other parts was not decided; `--precision` states how well the numbers are known";
+const NOT_FOLLOWED: &str = "as written it binds by no more than the noise of numbers that a program printed, and what the mechanism meant does \
+                            was not decided; `--precision` states how well the numbers are known";
 
 /// The analysis of the mechanism meant by the numbers of some parts but for their noise, beside those that are `near` by their digits;
-/// `None` where that leaves it open, where there are none of the former, or where the numbers of another part, taken literally, are
-/// not what they were read as.
+/// `None` where that leaves it open, where there are none of the former, or where the numbers of another part, taken literally as they
+/// are then, are not what they were read as.
 pub(super) fn meant_beside(
     mechanism: &Mechanism,
     options: &AnalysisOptions,
@@ -123,7 +123,14 @@ pub(super) fn meant_beside(
     let otherwise = others.any(|(index, (finding, rank))| {
         !among(index) && finding.upper() > 0 && is_else_as_written(rank)
     });
-    if noisy.is_empty() || otherwise {
+    let other = |joint: usize| {
+        let parts = &stated.structure.parts;
+        let has = |part: &&PartMeant| parts[part.index].joints.contains(&joint);
+        !all.iter().any(has)
+    };
+    let by_digits = stated.meant.as_ref();
+    let by_digits = by_digits.is_some_and(|own| own.changes.iter().any(|c| other(c.joint)));
+    if noisy.is_empty() || otherwise || by_digits {
         return Ok(None);
     }
     let mut found = of_the_one_meant(mechanism, options, stated, &all)?;

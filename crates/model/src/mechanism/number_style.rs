@@ -415,6 +415,8 @@ impl<'a> Literals<'a> {
         };
         let computed: Vec<Stated> = self.computed(&group).collect();
         let in_full = computed.iter().filter(|s| s.significant >= IN_FULL).count();
+        // A program prints one double in a hundred shorter: where more are short, two hands printed them, or somebody chose some. What most
+        // numbers are says which hand's the kind is; of equally many, the finer one's, whose digits bound what the others may have lost.
         group.mostly_full = 2 * in_full >= computed.len();
         group.lost = Self::lost(&group, &computed);
         (group.alike, group.equally_long) = self.are_alike(&group);

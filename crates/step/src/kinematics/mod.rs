@@ -28,8 +28,11 @@ use written::{Written, names_pair, without_range, word};
 /// beyond, the pair is told as not read, and nothing is joined.
 const APART: f64 = 1e-5;
 
-/// As [`APART`], of directions (rad): levers of a tenth of the size of what they place are known to a tenth as many digits.
-const ASKEW: f64 = 1e-4;
+/// The shortest lever of a frame, as a share of the coordinates that stand in [`APART`]: parts reach so far from their frames at least.
+const LEVER: f64 = 0.1;
+
+/// Directions (rad) that move the end of such a lever by no more than frames may be [`APART`].
+const ASKEW: f64 = APART / LEVER;
 
 /// What a file says of mechanisms.
 #[derive(Default)]
