@@ -314,6 +314,29 @@ fn a_loop_that_locks_its_solver_is_not_confirmed_to_be_rigid() {
     assert_eq!(outcome, Outcome::Contradicted, "{why}");
 }
 
+/// A single coarse run shows of no drive that it follows a false motion: that the loops are open at its poses does.
+#[test]
+fn loops_that_are_open_as_predicted_contradict_whatever_a_drive_shows() {
+    let file = folder("mechanisms/bennett.urdf");
+    let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+    let claim = analysis(&mechanism);
+    let options = VerificationOptions {
+        longest: 1.0,
+        ladder: vec![4],
+        ..VerificationOptions::default()
+    };
+    for (by, outcome) in [
+        (0.0, Outcome::Inconclusive),
+        (1e-6, Outcome::Inconclusive),
+        (1e-3, Outcome::Contradicted),
+    ] {
+        let own = spoiled("bennett", &mechanism, 1.0, by);
+        let found = verify(&mechanism, &own, &claim, &options, &mut Unobserved).unwrap();
+        let finding = &found.branches[0].finding;
+        assert_eq!(finding.outcome, outcome, "{by}: {}", finding.why);
+    }
+}
+
 mod by_lot {
     use super::*;
 
