@@ -2,7 +2,7 @@
 
 use super::excerpt::Excerpt;
 use super::load::STANDARD_INPUT;
-use super::terminal;
+use super::terminal::{self, ErrorLayout};
 use kutzbach::format::FormatError;
 use kutzbach::report::text::visible;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
@@ -36,16 +36,16 @@ impl Failure {
     pub fn tell(&self) {
         let _ = std::io::stderr()
             .lock()
-            .write_all(self.text(terminal::color_on_stderr()).as_bytes());
+            .write_all(self.text(&terminal::error_layout()).as_bytes());
     }
 
     /// The failure as text: each fault with its excerpt.
-    pub fn text(&self, color: bool) -> String {
+    pub fn text(&self, layout: &ErrorLayout) -> String {
         let mut text = String::new();
         match self {
             Self::ReaderGone => {}
             Self::Plain { message, help } => {
-                text.push_str(&rendered(&Fault::plain(message, help.as_deref()), color));
+                text.push_str(&rendered(&Fault::plain(message, help.as_deref()), layout));
             }
             Self::File(error) => {
                 // Faults of a file that includes others may stand in those.
@@ -54,7 +54,7 @@ impl Failure {
                     let source = sources
                         .entry(&error.file)
                         .or_insert_with(|| source_of(&error.file));
-                    text.push_str(&rendered(&Fault::located(error, source.as_deref()), color));
+                    text.push_str(&rendered(&Fault::located(error, source.as_deref()), layout));
                 }
             }
         }
@@ -153,15 +153,16 @@ impl Diagnostic for Fault {
     }
 }
 
-fn rendered(fault: &Fault, color: bool) -> String {
-    let theme = if color {
+fn rendered(fault: &Fault, layout: &ErrorLayout) -> String {
+    let theme = if layout.color {
         GraphicalTheme::unicode()
     } else {
         GraphicalTheme::unicode_nocolor()
     };
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(theme)
-        .with_width(100)
+        .with_width(layout.width.unwrap_or_default())
+        .with_wrap_lines(layout.width.is_some())
         .with_context_lines(1)
         .with_links(false)
         .without_syntax_highlighting();

@@ -17,9 +17,23 @@ pub fn layout(to_file: bool, verbose: bool) -> Layout {
     }
 }
 
-/// Whether standard error shows colours.
-pub fn color_on_stderr() -> bool {
-    std::io::stderr().is_terminal() && color_wanted()
+/// How errors are laid out.
+#[derive(Debug)]
+pub struct ErrorLayout {
+    /// Whether they are coloured.
+    pub color: bool,
+    /// The columns at which they are wrapped. None where other programs read them: those look for whole sentences and
+    /// names, which a long path would break.
+    pub width: Option<usize>,
+}
+
+/// The layout of errors for standard error.
+pub fn error_layout() -> ErrorLayout {
+    let terminal = std::io::stderr().is_terminal();
+    ErrorLayout {
+        color: terminal && color_wanted(),
+        width: terminal.then(width),
+    }
 }
 
 /// <https://no-color.org>: any value but an empty one forbids colour. A dumb terminal has none.
