@@ -340,14 +340,14 @@ fn loops_that_are_open_as_predicted_contradict_whatever_a_drive_shows() {
 mod by_lot {
     use super::*;
 
-    /// Of 102 of a sixth of all files 84 were contradicted and none was confirmed; where a drive does not move, or loops miss by less than
-    /// the simulation gives way, nothing is said. All of it with `KUTZBACH_WHOLE=1`.
+    /// A sixth of all files; all of them with `KUTZBACH_WHOLE=1`. Inconclusive stay ways too short to drive along, and what a simulation is
+    /// too soft to tell.
     #[test]
     #[ignore = "on demand, nine minutes: cargo test --test it false_predictions::by_lot -- --ignored --nocapture"]
     fn false_predictions_are_contradicted() {
         let all = own_mechanisms().into_iter().chain(zoo());
         let small = |(_, mechanism): &(String, Mechanism)| mechanism.joints().len() <= 14;
         let least = if support::whole() { 400 } else { 60 };
-        check(&sample(all.filter(small), 6), &KINDS, (least, 80, 0));
+        check(&sample(all.filter(small), 6), &KINDS, (least, 95, 0));
     }
 }
