@@ -25,7 +25,7 @@ mod split;
 pub use real::RealPoints;
 pub use split::Irreducible;
 
-use super::engine::{Budget, Stop, radical_contains};
+use super::engine::{Budget, Stop, radical_of_basis_contains};
 use super::polynomial::{Polynomial, Rational};
 use piece::{Piece, Ring};
 use real::real_points;
@@ -213,7 +213,7 @@ impl Placed {
         }
         for equation in &other.equations {
             let inside = piece.in_ring(equation);
-            if !radical_contains(&piece.equations, piece.variables(), &inside, budget)? {
+            if !radical_of_basis_contains(&piece.equations, piece.variables(), &inside, budget)? {
                 return Ok(false);
             }
         }

@@ -4,7 +4,7 @@
 //! of them, and everything later gets cheaper with every variable that is gone.
 
 use super::ideal::{compare, degree, degrevlex, head, independent_sets, is_one, local_degree};
-use crate::engine::{Budget, Stop, saturate};
+use crate::engine::{Budget, Stop, saturate_basis};
 use crate::polynomial::{Polynomial, Rational};
 use crate::zero_dimensional::FinitePoints;
 
@@ -130,7 +130,7 @@ impl Piece {
 
     /// What is not on f = 0.
     pub(super) fn without(&self, f: &Polynomial, budget: &Budget) -> Result<Option<Self>, Stop> {
-        let basis = saturate(&self.equations, self.variables(), f, budget)?;
+        let basis = saturate_basis(&self.equations, self.variables(), f, budget)?;
         Ok(Self::from_basis(basis, &self.ring))
     }
 

@@ -3,7 +3,7 @@
 use super::fibre::{self, Fibre};
 use super::ideal::{compare, local_degree, with_front};
 use super::piece::Piece;
-use crate::engine::{Budget, Stop, radical_contains};
+use crate::engine::{Budget, Stop, radical_of_basis_contains};
 use crate::factor::factor;
 use crate::polynomial::{Polynomial, Rational};
 
@@ -307,7 +307,12 @@ fn outside(
         };
         let equation = equation.substitute(&embedding_between(earlier, &current));
         if equation.is_zero()
-            || radical_contains(&current.equations, current.variables(), &equation, budget)?
+            || radical_of_basis_contains(
+                &current.equations,
+                current.variables(),
+                &equation,
+                budget,
+            )?
         {
             inside = Some(current);
             continue;

@@ -4,6 +4,7 @@
 
 use super::*;
 use crate::Limits;
+use crate::engine::radical_contains;
 use proptest::prelude::*;
 
 const N: usize = 3;

@@ -47,7 +47,7 @@ pub(crate) fn groebner_basis_noting(
     budget: &Budget,
     modulo: &mut Option<(u64, Option<usize>)>,
 ) -> Result<GroebnerBasis, Stop> {
-    let (monic, certificate) = rational_basis(equations, variables, order, budget, modulo)?;
+    let (monic, certificate) = rational_basis(equations, variables, order, None, budget, modulo)?;
     Ok(GroebnerBasis::assembled(
         monic,
         variables,
@@ -229,7 +229,8 @@ impl GroebnerBasis {
             .filter(|p| !p.is_zero())
             .map(|p| Terms::of(p, &self.order))
             .collect::<Result<_, Stop>>()?;
-        let (basis, _) = reduced_basis(&equations, self.variables, &self.order, false, budget)?;
+        let (basis, _) =
+            reduced_basis(&equations, self.variables, &self.order, None, false, budget)?;
         let same = basis == self.monic;
         if same {
             self.certificate = Certificate::over_the_rationals();

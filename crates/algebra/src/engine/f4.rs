@@ -33,24 +33,28 @@ struct F4<'a, C> {
 /// In an order that does not compare degrees first, the polynomials of intermediate steps may have degrees far above those of
 /// the result. Where that takes more than a little work, the basis is computed from one in degrevlex (a 6R loop
 /// lexicographically: half a second in place of minutes). Work is counted, not timed, so that every run decides alike.
+///
+/// Those polynomials that do not mention the variable `settled` are a reduced basis by themselves, in degrevlex as in this
+/// order: the pairs among them are left out.
 pub(super) fn reduced_basis<C: Coefficient>(
     polynomials: &[Terms<C>],
     variables: usize,
     order: &MonomialOrder,
+    settled: Option<usize>,
     learn: bool,
     budget: &Budget,
 ) -> Result<(Vec<Terms<C>>, Option<Trace>), Stop> {
     if order.is_graded() {
-        return in_orders(polynomials, variables, &[order], learn, budget);
+        return in_orders(polynomials, variables, &[order], settled, learn, budget);
     }
     let little = budget.with_work(LITTLE_WORK);
-    let direct = in_orders(polynomials, variables, &[order], learn, &little);
+    let direct = in_orders(polynomials, variables, &[order], settled, learn, &little);
     budget.take_over(&little);
     match direct {
         Err(Stop::Work) => {
             budget.check()?;
             let orders = [&MonomialOrder::Degrevlex, order];
-            in_orders(polynomials, variables, &orders, learn, budget)
+            in_orders(polynomials, variables, &orders, settled, learn, budget)
         }
         other => other,
     }
@@ -67,16 +71,21 @@ fn in_orders<C: Coefficient>(
     polynomials: &[Terms<C>],
     variables: usize,
     orders: &[&MonomialOrder],
+    settled: Option<usize>,
     learn: bool,
     budget: &Budget,
 ) -> Result<(Vec<Terms<C>>, Option<Trace>), Stop> {
     let mut trace = learn.then(Trace::default);
     let mut basis = polynomials.to_vec();
+    let mut settled = settled;
     for order in orders {
         let sorted = basis.iter().map(|p| p.reordered(order));
         let (input, places): (Vec<Terms<C>>, Vec<Vec<u32>>) = sorted.unzip();
         let mut f4 = F4::new(variables, order, trace.is_some(), budget);
         f4.start(&input)?;
+        if let Some(variable) = settled.take() {
+            f4.pairs.settle_without(variable);
+        }
         while !f4.pairs.is_empty() {
             f4.round()?;
         }
@@ -470,7 +479,7 @@ mod tests {
         let monic = |p: &Polynomial| Terms::of(p, &order).unwrap();
         let equations: Vec<_> = cyclic(4).iter().map(monic).collect();
         assert_eq!(is_basis(&equations, 4, &order, &budget), Ok(false));
-        let (basis, _) = reduced_basis(&equations, 4, &order, false, &budget).unwrap();
+        let (basis, _) = reduced_basis(&equations, 4, &order, None, false, &budget).unwrap();
         assert_eq!(is_basis(&basis, 4, &order, &budget), Ok(true));
         assert_eq!(is_basis::<Rational>(&[], 4, &order, &budget), Ok(true));
         let rest = normal_forms(&equations, &basis, 4, &order, &budget).unwrap();

@@ -3,8 +3,9 @@
 //! Cox, Little and O'Shea, "Ideals, Varieties, and Algorithms", sections 3.1, 4.2 and 4.4. Every answer rests on what its
 //! bases rest on: see [`Certificate`](super::Certificate).
 
-use super::basis::groebner_basis;
+use super::basis::{GroebnerBasis, groebner_basis};
 use super::budget::{Budget, Stop};
+use super::modular::{leads_modulo_a_prime, rational_basis};
 use super::order::MonomialOrder;
 use crate::polynomial::Polynomial;
 
@@ -27,6 +28,33 @@ pub fn radical_contains(
     Ok(basis.is_inconsistent())
 }
 
+/// [`radical_contains`] for equations that are a reduced basis in degrevlex, where most answers are no.
+///
+/// One prime proves that. If it divides no leading coefficient, the basis stays one modulo the prime, and what it reduces to zero
+/// over the rationals it reduces to zero there: were a power of f in the ideal, `f ≠ 0` would contradict the equations there, too.
+///
+/// # Errors
+/// [`Stop`] where the budget does not suffice.
+pub fn radical_of_basis_contains(
+    basis: &[Polynomial],
+    variables: usize,
+    f: &Polynomial,
+    budget: &Budget,
+) -> Result<bool, Stop> {
+    if f.is_zero() {
+        return Ok(true);
+    }
+    let system = with_inverse(basis, variables, &f.primitive());
+    let order = MonomialOrder::Degrevlex;
+    let (all, inverse) = (variables + 1, Some(variables));
+    let leads = leads_modulo_a_prime(&system, all, &order, inverse, budget)?;
+    if !leads.iter().any(|lead| lead.iter().all(|&e| e == 0)) {
+        return Ok(false);
+    }
+    let (monic, certificate) = rational_basis(&system, all, &order, inverse, budget, &mut None)?;
+    Ok(GroebnerBasis::assembled(monic, all, &order, certificate).is_inconsistent())
+}
+
 /// A Groebner basis of the combinations of the equations in which some variables do not occur. Their complex solutions are
 /// the closure of what remains of the solutions when those variables are forgotten.
 ///
@@ -44,25 +72,33 @@ pub fn eliminate(
     let mut order: Vec<usize> = (0..variables).filter(|v| eliminated.contains(v)).collect();
     let count = order.len();
     order.extend((0..variables).filter(|v| !eliminated.contains(v)));
-    let mut places = vec![0; variables];
-    for (place, &variable) in order.iter().enumerate() {
-        places[variable] = place;
-    }
-    let moved: Vec<Polynomial> = equations
-        .iter()
-        .map(|p| p.moved(&places, variables))
-        .collect();
+    let moved = in_sequence(equations, &order);
     let basis = groebner_basis(
         &moved,
         variables,
         &MonomialOrder::Elimination(count),
         budget,
     )?;
-    let rest = basis.polynomials().iter().zip(basis.leading_monomials());
-    Ok(rest
-        .filter(|(_, lead)| lead[..count].iter().all(|&e| e == 0))
-        .map(|(p, _)| p.moved(&order, variables))
+    Ok(without_first(&basis, count)
+        .map(|p| p.moved(&order, variables))
         .collect())
+}
+
+/// The polynomials with the variables of this sequence in the places of its elements.
+fn in_sequence(polynomials: &[Polynomial], sequence: &[usize]) -> Vec<Polynomial> {
+    let mut places = vec![0; sequence.len()];
+    for (place, &variable) in sequence.iter().enumerate() {
+        places[variable] = place;
+    }
+    let moved = polynomials.iter().map(|p| p.moved(&places, sequence.len()));
+    moved.collect()
+}
+
+/// What of a basis in an elimination order does not mention the first variables.
+fn without_first(basis: &GroebnerBasis, count: usize) -> impl Iterator<Item = &Polynomial> {
+    let all = basis.polynomials().iter().zip(basis.leading_monomials());
+    all.filter(move |(_, lead)| lead[..count].iter().all(|&e| e == 0))
+        .map(|(p, _)| p)
 }
 
 /// A Groebner basis of `I : f^∞`, the polynomials that come into the ideal when multiplied by a power of `f`. Their complex
@@ -79,6 +115,48 @@ pub fn saturate(
     let system = with_inverse(equations, variables, f);
     let saturated = eliminate(&system, variables + 1, &[variables], budget)?;
     Ok(without_last(&saturated, variables))
+}
+
+/// [`saturate`] for equations that are a reduced basis in degrevlex, and mostly the answer themselves.
+///
+/// One prime proves that. If it divides no leading coefficient, the basis stays one modulo the prime. Were `f g` in the ideal
+/// and g not, so could g be with integers over denominators that the prime does not divide, in normal form and not zero modulo the
+/// prime: then it would not be in the ideal there, either, but `f g` would. So where f divides no zero modulo the prime, which leading
+/// monomials tell, it divides none over the rationals.
+///
+/// # Errors
+/// [`Stop`] where the budget does not suffice.
+pub fn saturate_basis(
+    basis: &[Polynomial],
+    variables: usize,
+    f: &Polynomial,
+    budget: &Budget,
+) -> Result<Vec<Polynomial>, Stop> {
+    if f.is_zero() {
+        return Ok(vec![Polynomial::one(variables)]);
+    }
+    let all = variables + 1;
+    let sequence: Vec<usize> = [variables].into_iter().chain(0..variables).collect();
+    let system = in_sequence(&with_inverse(basis, variables, &f.primitive()), &sequence);
+    let order = MonomialOrder::Elimination(1);
+    let leads = leads_modulo_a_prime(&system, all, &order, Some(0), budget)?;
+    let left = leads.iter().filter(|lead| lead[0] == 0);
+    let mut left: Vec<&[u32]> = left.map(|lead| &lead[1..]).collect();
+    let mut before: Vec<&[u32]> = basis
+        .iter()
+        .filter_map(|p| p.terms().next().map(|(lead, _)| lead))
+        .collect();
+    left.sort_unstable();
+    before.sort_unstable();
+    if left == before {
+        return Ok(basis.to_vec());
+    }
+    let (monic, certificate) = rational_basis(&system, all, &order, Some(0), budget, &mut None)?;
+    let saturated = GroebnerBasis::assembled(monic, all, &order, certificate);
+    let rest: Vec<Polynomial> = without_first(&saturated, 1)
+        .map(|p| p.moved(&sequence, all))
+        .collect();
+    Ok(without_last(&rest, variables))
 }
 
 /// Generators of `I : f`, the polynomials that come into the ideal when multiplied by `f`.
@@ -159,6 +237,47 @@ mod tests {
             radical_contains(&equations, 3, &other, &unlimited()),
             Ok(false)
         );
+    }
+
+    /// Of a basis the same is told as of any equations, whether f vanishes, divides zero or neither.
+    #[test]
+    fn a_basis_is_asked_modulo_a_prime_first() {
+        let systems: [&[&str]; 4] = [
+            &["x*y^2 + 2*y^2", "x^4 - 2*x^2 + 1"],
+            &["x^2*y", "x*z"],
+            &["x*y - z^2", "x^2 - 3*y*z + 5"],
+            &["2*x^2 - 7*y + 1", "x*y*z - z^3", "y^2*z - x*z"],
+        ];
+        let asked = [
+            "x",
+            "y - x^2 + 1",
+            "y - x",
+            "z",
+            "3*x - 2*y*z",
+            "x^2 + y^2",
+            "1",
+            "0",
+        ];
+        let mut kinds = [0; 3];
+        for system in systems {
+            let equations: Vec<Polynomial> = system.iter().map(|text| parse(text)).collect();
+            let order = MonomialOrder::Degrevlex;
+            let basis = groebner_basis(&equations, 3, &order, &unlimited()).unwrap();
+            let basis = basis.polynomials();
+            for f in asked.map(parse) {
+                let inside = radical_of_basis_contains(basis, 3, &f, &unlimited());
+                assert_eq!(inside, radical_contains(&equations, 3, &f, &unlimited()));
+                let left = saturate_basis(basis, 3, &f, &unlimited());
+                assert_eq!(left, saturate(&equations, 3, &f, &unlimited()), "{f:?}");
+                let kind = if inside == Ok(true) {
+                    0
+                } else {
+                    1 + usize::from(left.unwrap() == basis)
+                };
+                kinds[kind] += 1;
+            }
+        }
+        assert!(kinds.iter().all(|&count| count > 2), "{kinds:?}");
     }
 
     #[test]

@@ -106,7 +106,14 @@ impl GroebnerBasis {
             coefficients: vec![Zp::from_i64(1, prime), Zp::from_i64(BY_LOT, prime)],
         });
         let little = budget.with_work(LITTLE_WORK);
-        let basis = reduced_basis(&equations, self.variables(), self.order(), false, &little);
+        let basis = reduced_basis(
+            &equations,
+            self.variables(),
+            self.order(),
+            None,
+            false,
+            &little,
+        );
         budget.take_over(&little);
         match basis {
             Ok((basis, _)) => {

@@ -27,7 +27,9 @@ pub use basis::{GroebnerBasis, groebner_basis};
 pub use budget::{Budget, Limits, MEMORY, Progress, Stop, entries_in};
 pub use certificate::Certificate;
 pub use hilbert::HilbertSeries;
-pub use ideal::{eliminate, quotient, radical_contains, saturate};
+pub use ideal::{
+    eliminate, quotient, radical_contains, radical_of_basis_contains, saturate, saturate_basis,
+};
 pub use local::{
     LocalRing, ResidueTerms, local_dimension, local_dimension_is_at_most, local_dimension_modulo,
 };

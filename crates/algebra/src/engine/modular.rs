@@ -50,17 +50,33 @@ impl Image {
 }
 
 /// A basis over the rationals, smallest leading monomial first, every polynomial monic, with what was checked of it. On the
-/// way the dimension modulo the first prime is noted.
+/// way the dimension modulo the first prime is noted. For `settled` see [`reduced_basis`].
 pub(super) fn rational_basis(
     equations: &[Polynomial],
     variables: usize,
     order: &MonomialOrder,
+    settled: Option<usize>,
     budget: &Budget,
     modulo: &mut Option<(u64, Option<usize>)>,
 ) -> Result<(Vec<Terms<Rational>>, Certificate), Stop> {
     match Search::new(equations, variables, order, budget)? {
-        Some(search) => search.run(modulo),
+        Some(search) => Search { settled, ..search }.run(modulo),
         None => Ok((Vec::new(), Certificate::over_the_rationals())),
+    }
+}
+
+/// The leading monomials of a basis modulo a prime that divides no leading coefficient of the equations, smallest first. For
+/// `settled` see [`reduced_basis`].
+pub(super) fn leads_modulo_a_prime(
+    equations: &[Polynomial],
+    variables: usize,
+    order: &MonomialOrder,
+    settled: Option<usize>,
+    budget: &Budget,
+) -> Result<Vec<Vec<u32>>, Stop> {
+    match Search::new(equations, variables, order, budget)? {
+        Some(search) => Ok(Search { settled, ..search }.full_image(false)?.leads()),
+        None => Ok(Vec::new()),
     }
 }
 
@@ -114,6 +130,7 @@ struct Search<'a> {
     equations: Vec<Terms<Rational>>,
     variables: usize,
     order: &'a MonomialOrder,
+    settled: Option<usize>,
     budget: &'a Budget,
     primes: Primes,
     groups: Vec<Group>,
@@ -140,6 +157,7 @@ impl<'a> Search<'a> {
             equations,
             variables,
             order,
+            settled: None,
             budget,
             primes: Primes::new(),
             groups: Vec::new(),
@@ -223,7 +241,14 @@ impl<'a> Search<'a> {
             .zip(input)
             .map(|(equation, residues)| Terms::without_zeros(&equation.monomials, residues))
             .collect();
-        let (basis, trace) = reduced_basis(&input, self.variables, self.order, learn, self.budget)?;
+        let (basis, trace) = reduced_basis(
+            &input,
+            self.variables,
+            self.order,
+            self.settled,
+            learn,
+            self.budget,
+        )?;
         if let Some(trace) = trace {
             let layout = basis.iter().map(|p| p.monomials.clone()).collect();
             self.trace = Some((trace, layout));

@@ -99,6 +99,14 @@ impl Pairs {
         Ok(())
     }
 
+    /// Forgets the pairs of which neither leading monomial has some variable: they belong to a basis, and reduce to zero.
+    pub(super) fn settle_without(&mut self, variable: usize) {
+        let heads = &self.heads;
+        let mentions = |i: usize| heads[i].lead.get(variable).is_some_and(|&e| e > 0);
+        self.waiting
+            .retain(|pair| mentions(pair.first) || mentions(pair.second));
+    }
+
     /// The pairs of a new element that no other pair of it makes superfluous.
     fn pairs_with(&self, head: &Head, budget: &Budget) -> Result<Vec<Pair>, Stop> {
         struct Candidate {

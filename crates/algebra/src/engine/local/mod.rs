@@ -156,6 +156,7 @@ fn local_leads(
         &equations,
         variables,
         &MonomialOrder::Degrevlex,
+        None,
         false,
         &little,
     );
