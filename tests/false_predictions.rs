@@ -314,17 +314,40 @@ fn a_loop_that_locks_its_solver_is_not_confirmed_to_be_rigid() {
     assert_eq!(outcome, Outcome::Contradicted, "{why}");
 }
 
+/// A single coarse run shows of no drive that it follows a false motion: that the loops are open at its poses does.
+#[test]
+fn loops_that_are_open_as_predicted_contradict_whatever_a_drive_shows() {
+    let file = folder("mechanisms/bennett.urdf");
+    let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+    let claim = analysis(&mechanism);
+    let options = VerificationOptions {
+        longest: 1.0,
+        ladder: vec![4],
+        ..VerificationOptions::default()
+    };
+    for (by, outcome) in [
+        (0.0, Outcome::Inconclusive),
+        (1e-6, Outcome::Inconclusive),
+        (1e-3, Outcome::Contradicted),
+    ] {
+        let own = spoiled("bennett", &mechanism, 1.0, by);
+        let found = verify(&mechanism, &own, &claim, &options, &mut Unobserved).unwrap();
+        let finding = &found.branches[0].finding;
+        assert_eq!(finding.outcome, outcome, "{by}: {}", finding.why);
+    }
+}
+
 mod by_lot {
     use super::*;
 
-    /// Of 102 of a sixth of all files 84 were contradicted and none was confirmed; where a drive does not move, or loops miss by less than
-    /// the simulation gives way, nothing is said. All of it with `KUTZBACH_WHOLE=1`.
+    /// A sixth of all files; all of them with `KUTZBACH_WHOLE=1`. Inconclusive stay ways too short to drive along, and what a simulation is
+    /// too soft to tell.
     #[test]
     #[ignore = "on demand, nine minutes: cargo test --test it false_predictions::by_lot -- --ignored --nocapture"]
     fn false_predictions_are_contradicted() {
         let all = own_mechanisms().into_iter().chain(zoo());
         let small = |(_, mechanism): &(String, Mechanism)| mechanism.joints().len() <= 14;
         let least = if support::whole() { 400 } else { 60 };
-        check(&sample(all.filter(small), 6), &KINDS, (least, 80, 0));
+        check(&sample(all.filter(small), 6), &KINDS, (least, 95, 0));
     }
 }

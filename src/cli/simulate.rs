@@ -13,7 +13,9 @@ use super::{DISAGREEMENT, DONE, UNDECIDED, interrupt, load, output, terminal};
 use choices::{Effect, Format, IntegratorChoice, SolverChoice, substeps};
 use clap::Args;
 use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
-use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
+use kutzbach::simulate::verification::{
+    Beside, Observer, Outcome, Verification, VerificationOptions, verify,
+};
 use kutzbach::simulate::{
     LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table,
     run_scene_estimated, scene_drives,
@@ -249,27 +251,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
 
     let mut log = Log::begin(arguments, &reading, &geometry, &analysis, &options)?;
-    let verification = log
-        .watch(|observer| verify(mechanism, &geometry, &analysis, &options, observer))?
-        .map_err(|error| refused(error.to_string()))?;
-    let mut simulated = Simulated {
-        mechanism,
-        changed,
-        choice,
-        verification,
-        scene: None,
-        cost: None,
-        idle: idle::idle(
-            arguments,
-            mechanism,
-            analysis.mobility.verdict,
-            (&effects, called_for),
-        ),
-        log: None,
-        stopped: false,
-    };
     let posed = analysis.mobility.verdict != Verdict::Unassembled;
-    if called_for && posed && !simulated.verification.stopped {
+    let scene = if called_for && posed {
         let scene = SceneOptions {
             world,
             drives: drives.clone(),
@@ -280,7 +263,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 None => RUNGE_KUTTA_STEP,
             }),
         };
-        let states = &analysis.assembly.states;
         let refinement = Refinement {
             wanted: arguments.accuracy,
             work: SCENE_WORK,
@@ -288,12 +270,44 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let run = log
             .watch(|observer| {
                 let how = (refinement, &interrupt::asked as &dyn Fn() -> bool);
-                run_scene_estimated(mechanism, &geometry, states, &scene, how, observer)
+                let start = &analysis.assembly.states;
+                let mut beside;
+                let observer: &mut dyn Observer = if arguments.mcap.is_some() {
+                    beside = Beside::new(mechanism, &geometry, &analysis, observer);
+                    &mut beside
+                } else {
+                    observer
+                };
+                run_scene_estimated(mechanism, &geometry, start, &scene, how, observer)
             })?
             .map_err(|error| refused(error.to_string()))?;
         log.tell(&table::off_text(&run.1))?;
-        simulated.scene = Some(run);
-    }
+        Some(run)
+    } else {
+        None
+    };
+    let verification = match interrupt::asked() {
+        true => Verification::broken_off(analysis.mobility.verdict),
+        false => log
+            .watch(|observer| verify(mechanism, &geometry, &analysis, &options, observer))?
+            .map_err(|error| refused(error.to_string()))?,
+    };
+    let mut simulated = Simulated {
+        mechanism,
+        changed,
+        choice,
+        verification,
+        scene,
+        cost: None,
+        idle: idle::idle(
+            arguments,
+            mechanism,
+            analysis.mobility.verdict,
+            (&effects, called_for),
+        ),
+        log: None,
+        stopped: false,
+    };
     simulated.stopped = simulated.verification.stopped || interrupt::asked();
     if arguments.cost && posed && !simulated.stopped {
         let rows = cost_table(

@@ -29,7 +29,7 @@ use std::time::{Duration, Instant};
 /// Poses of the predicted motion where no number is asked for.
 const SAMPLES: usize = 200;
 
-/// Seconds between the predicted motion and what follows.
+/// Seconds between what is simulated, or predicted, and what follows.
 const PAUSE: f64 = 0.5;
 
 /// The log, if one is wanted, and the progress bar.
@@ -37,6 +37,9 @@ pub struct Log<'a> {
     mechanism: &'a Mechanism,
     geometry: &'a Geometry<f64>,
     analysis: &'a Analysis,
+    options: &'a VerificationOptions,
+    /// Poses of each predicted motion.
+    samples: usize,
     path: Option<&'a Path>,
     recorder: Option<Recorder<'a, LogFile>>,
     /// Time that the log has come to (s).
@@ -44,7 +47,7 @@ pub struct Log<'a> {
 }
 
 impl<'a> Log<'a> {
-    /// Opens the log and plays the predicted motion into it.
+    /// Opens the log.
     ///
     /// # Errors
     /// Where the log cannot be written, or the report that it holds cannot be made.
@@ -53,12 +56,14 @@ impl<'a> Log<'a> {
         reading: &'a Reading,
         geometry: &'a Geometry<f64>,
         analysis: &'a Analysis,
-        options: &VerificationOptions,
+        options: &'a VerificationOptions,
     ) -> Result<Self, Failure> {
         let mut log = Self {
             mechanism: &reading.mechanism,
             geometry,
             analysis,
+            options,
+            samples: arguments.samples.unwrap_or(SAMPLES),
             path: arguments.mcap.as_deref(),
             recorder: None,
             until: 0.0,
@@ -101,7 +106,6 @@ impl<'a> Log<'a> {
             .rest(0.0, &Motion::of_links(&geometry.home))
             .map_err(|error| unwritten(path, &error))?;
         log.recorder = Some(recorder);
-        log.play(arguments, options)?;
         Ok(log)
     }
 
@@ -126,12 +130,9 @@ impl<'a> Log<'a> {
         facts
     }
 
-    /// The predicted motion of every branch that is verified.
-    fn play(
-        &mut self,
-        arguments: &Arguments,
-        options: &VerificationOptions,
-    ) -> Result<(), Failure> {
+    /// The predicted motion of every branch that is verified: last, so that what is simulated begins at 0 s with the prediction beside it.
+    fn play(&mut self) -> Result<(), Failure> {
+        let options = self.options;
         let (Some(path), Some(mut recorder)) = (self.path, self.recorder.take()) else {
             return Ok(());
         };
@@ -147,7 +148,7 @@ impl<'a> Log<'a> {
             let wanted = TraceOptions {
                 branch: Some(branch.name.clone()),
                 drive: options.drive.clone(),
-                samples: arguments.samples.unwrap_or(SAMPLES),
+                samples: self.samples,
                 configuration: options.configuration.clone(),
                 ..TraceOptions::default()
             };
@@ -283,6 +284,9 @@ impl<'a> Log<'a> {
         finding: &Finding,
         stopped: bool,
     ) -> Result<Option<(String, Summary)>, Failure> {
+        if !stopped {
+            self.play()?;
+        }
         let Some((mut recorder, path)) = self.recorder.take().zip(self.path) else {
             return Ok(None);
         };

@@ -63,24 +63,29 @@ pub fn csv(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> String
 
 /// The shortest digits that give the same number back, in the form of `{:?}`; of two that are as near, the even one.
 fn push_number(text: &mut String, number: f64) {
+    if number.to_bits() == 0 {
+        return text.push_str("0.0");
+    }
     let mut buffer = zmij::Buffer::new();
     let written = buffer.format(number);
     let size = number.abs();
     if size == 0.0 || (1e-4..1e16).contains(&size) {
-        text.push_str(written);
-    } else if let Some((digits, exponent)) = written.split_once('e') {
-        // Without sign and zeros of a positive exponent, without `.0`.
-        let (sign, exponent) = match exponent.strip_prefix('-') {
-            Some(exponent) => ("-", exponent),
-            None => ("", exponent.trim_start_matches('+')),
-        };
-        text.push_str(digits.trim_end_matches(".0"));
-        text.push('e');
-        text.push_str(sign);
-        text.push_str(exponent.trim_start_matches('0'));
-    } else {
-        text.push_str(&format!("{number:?}"));
+        return text.push_str(written);
     }
+    // An exponent is short: it is looked for from the end.
+    let place = written.bytes().rposition(|byte| byte == b'e');
+    let Some((digits, exponent)) = place.and_then(|at| written.split_at_checked(at)) else {
+        return text.push_str(&format!("{number:?}"));
+    };
+    // Without `.0`, and without sign and zeros of a positive exponent.
+    text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
+    let value = exponent.trim_start_matches(['e', '+', '-', '0']);
+    text.push_str(if exponent.starts_with("e-") {
+        "e-"
+    } else {
+        "e"
+    });
+    text.push_str(value);
 }
 
 #[cfg(test)]

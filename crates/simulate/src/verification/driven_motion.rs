@@ -10,8 +10,8 @@ use super::excitation::MOST_SPREAD;
 use super::observer::{Moment, Observer, Passage};
 use super::prediction::Prediction;
 use super::verify::{VerificationOptions, largest_gap};
-use crate::{Drive, Masses, World, WorldOptions};
-use kutzbach_closure::{Geometry, JointState, variable_unit};
+use crate::{Drive, Masses, World, WorldOptions, joint_gaps};
+use kutzbach_closure::{Geometry, JointState, spanning_poses, variable_unit};
 use kutzbach_mobility::{Analysis, Branch, Structure};
 use kutzbach_model::mechanism::Mechanism;
 use kutzbach_motion::Variable;
@@ -235,6 +235,31 @@ impl<'a> DrivenMotion<'a> {
         Self { masses, ..self }
     }
 
+    /// How far joints are open where the world stands at poses of the predicted motion, by joint values and without a drive: the largest
+    /// gap in the world, and in the mechanism that the prediction was made for (characteristic lengths, rad). The second is what is left
+    /// of a prediction's equations; the first is as small where its poses are poses of this world.
+    ///
+    /// # Errors
+    /// [`VerificationError`] where no world can be made.
+    pub(super) fn open_as_predicted(&self) -> Result<[f64; 2], VerificationError> {
+        let options = WorldOptions::default();
+        let (mechanism, predicted) = (self.mechanism, self.predicted);
+        let mut largest = [0.0; 2];
+        for pose in &self.way.poses {
+            let world = World::with_masses(mechanism, self.geometry, pose, &options, self.masses)?;
+            let links = spanning_poses(mechanism, predicted, pose).0;
+            let own = joint_gaps(mechanism, predicted, &links);
+            for (most, gaps) in largest.iter_mut().zip([world.gaps(), own]) {
+                let gap = largest_gap(&gaps, self.length);
+                // What is not a number must not pass for small.
+                if !(gap <= *most) {
+                    *most = gap;
+                }
+            }
+        }
+        Ok(largest)
+    }
+
     /// By how much a drive has to be stronger than one that moves a mechanism of its own size and mass: a tree of forty
     /// links is more than that. One for all smaller ones, and for loops with their own masses: what is strong enough for
     /// anything bends a loop open.
@@ -398,7 +423,7 @@ fn pace(time: f64) -> f64 {
 }
 
 /// Instantaneous freedom of the parts with loops at a generic pose of the branch.
-fn loop_freedom(mechanism: &Mechanism, structure: &Structure, branch: &Branch) -> usize {
+pub(super) fn loop_freedom(mechanism: &Mechanism, structure: &Structure, branch: &Branch) -> usize {
     let free: usize = structure
         .free_joints
         .iter()

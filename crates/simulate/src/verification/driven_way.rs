@@ -30,6 +30,8 @@ pub(super) struct DrivenWay {
     pub ends: String,
     /// Whether something is seen to move: not so where all that is driven is the spin of rods between balls.
     shown: bool,
+    /// Poses on the way, as predicted: a few, the first and the last one among them.
+    pub poses: Vec<Vec<JointState<f64>>>,
     /// (time, value of the driven variable) along the way at a pace at which no joint goes faster than [`RATE`]; times
     /// ascend from zero.
     schedule: Vec<(f64, f64)>,
@@ -59,6 +61,9 @@ pub(super) const RATE: f64 = 1.0;
 
 /// Poses that the schedule of a way is made from.
 const SCHEDULED: usize = 400;
+
+/// One pose in so many of those is kept to be looked at by itself.
+const KEPT_EVERY: usize = 40;
 
 /// What is gone of the arclength to a pose that ends the way: the rest is where the drive has ever less leverage.
 const SHARE: f64 = 0.85;
@@ -210,6 +215,7 @@ struct Barrier {
 struct Side {
     to: f64,
     ends: String,
+    poses: Vec<Vec<JointState<f64>>>,
     schedule: Vec<(f64, f64)>,
 }
 
@@ -257,6 +263,7 @@ fn way_of(
             to: best.to,
             ends: best.ends,
             shown,
+            poses: best.poses,
             schedule: best.schedule,
         }),
         _ => Err(format!(
@@ -303,6 +310,7 @@ fn side_of(
     let mut found = Side {
         to: from,
         ends: barrier.what.clone(),
+        poses: vec![start.to_vec()],
         schedule: vec![(0.0, from)],
     };
     let mut before = start.to_vec();
@@ -335,8 +343,12 @@ fn side_of(
             found.schedule.push((time, to));
             found.to = to;
         }
+        if step % KEPT_EVERY == 0 {
+            found.poses.push(states.clone());
+        }
         before = states;
     }
+    found.poses.push(before);
     found
 }
 

@@ -22,8 +22,10 @@
 //! - [`judge_pushing`]: what pushes of a rigid mechanism say.
 //! - [`count_freedoms`]: the rank of the response to random impulses.
 //! - `budget`: what may be simulated, counted in work.
+//! - [`Beside`]: the prediction beside a scene.
 //! - [`Observer`]: logs and progress bars look on.
 
+mod beside;
 mod budget;
 mod closing;
 mod driven_motion;
@@ -37,6 +39,7 @@ mod pushing;
 mod scale;
 mod verify;
 
+pub use beside::Beside;
 pub(crate) use budget::{Size, looped_variables};
 pub use driven_motion::{DrivenMotion, DrivenRun};
 pub use error::VerificationError;

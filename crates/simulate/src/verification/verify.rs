@@ -12,7 +12,9 @@
 use super::budget::{Budget, Size, cost_of_count, cost_of_run, looped_variables, wheels};
 use super::driven_motion::DrivenMotion;
 use super::excitation::{self, MOST_SPREAD};
-use super::ladder::{Finding, Outcome, ROUNDING, Rung, judge_motion, order_between, undecided};
+use super::ladder::{
+    FINE_ENOUGH, Finding, NEAR, Outcome, ROUNDING, Rung, judge_motion, order_between, undecided,
+};
 use super::observer::Observer;
 use super::pushing::{Pushed, Pushing};
 use super::{FreedomCount, VerificationError, count_freedoms};
@@ -145,14 +147,7 @@ pub fn verify(
     options: &VerificationOptions,
     observer: &mut dyn Observer,
 ) -> Result<Verification, VerificationError> {
-    let mut verification = Verification {
-        verdict: analysis.mobility.verdict,
-        branches: Vec::new(),
-        pushing: None,
-        finding: Finding::new(Outcome::Inconclusive, String::new()),
-        stopped: false,
-        notes: Vec::new(),
-    };
+    let mut verification = Verification::begun(analysis.mobility.verdict, "");
     let unpredicted = match analysis.mobility.verdict {
         Verdict::Unassembled => Some("no closed pose is known: there is no pose to simulate"),
         Verdict::Undecided => Some("the mobility is undecided: nothing is predicted"),
@@ -281,6 +276,26 @@ fn verify_rigid(
 }
 
 impl Verification {
+    /// What is known where one was asked to stop before anything was tested.
+    #[must_use]
+    pub fn broken_off(verdict: Verdict) -> Self {
+        Self {
+            stopped: true,
+            ..Self::begun(verdict, "broken off before anything was tested")
+        }
+    }
+
+    fn begun(verdict: Verdict, why: &str) -> Self {
+        Self {
+            verdict,
+            branches: Vec::new(),
+            pushing: None,
+            finding: Finding::new(Outcome::Inconclusive, why),
+            stopped: false,
+            notes: Vec::new(),
+        }
+    }
+
     fn with_pushing(mut self, pushing: Option<Pushing>) -> Self {
         match &pushing {
             Some(pushing) => {
@@ -381,6 +396,17 @@ fn of_one_way(ladders: &[Ladder]) -> Finding {
     found.map_or_else(|| undecided(&[]), |ladder| ladder.finding.clone())
 }
 
+/// What is said where no drive shows that a motion is none of the mechanism, but its joints cannot stand as predicted: drives stall, and
+/// simulations come apart, for other reasons too.
+fn stands_open(simulated: &Finding, open: f64) -> Finding {
+    let why = format!(
+        "the drive does not show it ({}), but where its joints stand as predicted a loop is open by {open:.1e} of the \
+         characteristic length: these are no poses of the simulated mechanism",
+        simulated.why
+    );
+    Finding::new(Outcome::Contradicted, why)
+}
+
 struct Test<'a> {
     mechanism: &'a Mechanism,
     geometry: &'a Geometry<f64>,
@@ -442,6 +468,7 @@ impl Test<'_> {
             let moments = self.size.moments(motion.moments());
             let motion = motion.looked_at(moments);
             let begun = found.ladders.len();
+            let [open, own] = motion.open_as_predicted()?;
             if self.tries(&motion, &mut found, observer)? {
                 found.finding.why = "broken off".to_owned();
                 return Ok((found, true));
@@ -461,9 +488,13 @@ impl Test<'_> {
                     finding = of_one_way(&found.ladders[again..]);
                 }
             }
-            if found.ladders.len() > begun {
-                findings.push(finding);
+            if found.ladders.len() == begun {
+                continue;
             }
+            if finding.outcome != Outcome::Contradicted && open > FINE_ENOUGH + NEAR * own {
+                finding = stands_open(&finding, open);
+            }
+            findings.push(finding);
         }
         findings.extend(count);
         found.finding = self.whole(&findings, &found.untested);
