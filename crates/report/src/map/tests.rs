@@ -188,7 +188,7 @@ fn the_margin_has_a_logarithmic_scale() {
     let document = Document::parse(&svg).unwrap();
     assert_eq!(shapes(&document)[6].0, "cell step1");
     assert!(shapes(&document)[6].1.contains("margin 2.07e0"));
-    assert_eq!(with_class(&document, "note").len(), 2);
+    assert_eq!(with_class(&document, "note").len(), 3);
 }
 
 #[test]
