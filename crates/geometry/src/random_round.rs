@@ -206,9 +206,9 @@ fn no_answer_about_round_integers_is_wrong() {
     no_answer_is_wrong(CASES);
 }
 
-/// `cargo test -p kutzbach-geometry a_hundred_thousand -- --ignored`
+/// `cargo test --lib -- --ignored a_hundred_thousand`
 #[test]
-#[ignore = "on demand: cargo test -p kutzbach-geometry a_hundred_thousand -- --ignored"]
+#[ignore = "too long for every commit: run by CI, cargo test --lib -- --ignored a_hundred_thousand"]
 fn a_hundred_thousand_round_answers_are_right() {
     no_answer_is_wrong(100_000);
     none_contradicts(100_000);
